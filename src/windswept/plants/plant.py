@@ -115,7 +115,8 @@ class Plant:
     """(N,) m."""
 
     joint_scale: Floats | None = field(default=None)
-    """(L,) optional factor on the joint stiffness that follows from the material; None means 1."""
+    """(L, 2) optional factors on the stiffness of a joint's two springs; None means 1. The first spring resists
+    rotation about parent x child, the second about the axis perpendicular to that and to the link."""
 
     @property
     def stem_count(self) -> int:

@@ -1,0 +1,165 @@
+"""The constants of a plant's motion: what a step reads and never writes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from windswept.motion.drag import Drag, build_drag
+from windswept.motion.modes import stem_frequencies
+from windswept.motion.rods import Doubles, Rods, build_rods
+from windswept.motion.skeleton import Skeleton, build_skeleton
+from windswept.motion.sweeps import joint_motion, joint_torque
+from windswept.plants.plant import Floats, Ints, Material, Plant
+
+TIME_STEP = 1.0 / 120.0
+"""The fixed inner step, s."""
+PROBE_SPACING = 1.5
+"""Edge of the cells in which links share one wind probe, m; gusts are tens of metres long."""
+
+CONSTANT_COUNT = 32
+"""Columns of ``Model.constants``; the kernels in springs.py read them by the numbers below."""
+AXIS_1, AXIS_2, VECTOR, ATTACH, OFFSET = 0, 3, 6, 9, 10
+DRAG_CENTRE, DRAG_LEAF, DRAG_WOOD, INVERSE_SQUARE, MOBILITY = 13, 14, 20, 21, 22
+COMPLIANCE_1, COMPLIANCE_2, STEP_XX, STEP_XV, STEP_VX, STEP_VV, PROPAGATION = 23, 24, 25, 26, 27, 28, 29
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """Constants of one plant with L links, S stems, B wind probes, in the plant's frame."""
+
+    skeleton: Skeleton
+    rods: Rods
+    drag: Drag
+    material: Material
+    time_step: float
+    """s"""
+    stem_frequency: Doubles
+    """(S,) angular frequency at which every joint of the stem oscillates, rad/s."""
+    damping_ratio: Doubles
+    """(S,) fraction of critical damping."""
+    propagation: Doubles
+    """(L,) factor on the force that a link passes on to its parent; 1 but for the paper's printed merges."""
+    link_probe: Ints
+    """(L,) probe that each link feels."""
+    probe_position: Floats
+    """(B, 3) where the wind is sampled, m."""
+    constants: Floats
+    """(L, CONSTANT_COUNT) all of the above as the kernels read it."""
+
+    @property
+    def link_count(self) -> int:
+        """Number of links, L."""
+        return len(self.skeleton.parent)
+
+    @property
+    def joint_inertia(self) -> Doubles:
+        """(L, 2) effective inertia of every joint, stiffness / frequency^2, kg m^2."""
+        frequency = self.stem_frequency[self.skeleton.stem]
+        return 1.0 / (self.rods.compliance * frequency[:, None] ** 2)
+
+
+def build_model(plant: Plant, time_step: float = TIME_STEP, propagation: Doubles | None = None) -> Model:
+    """Model of a plant: stiffness, mass, damping and drag of every joint and link.
+
+    Every joint of a stem oscillates at the lowest frequency of the stem's own subtree clamped at its base, so
+    its effective inertia is stiffness / frequency^2 and its static deflection is exact.
+
+    Args:
+        plant: the plant.
+        time_step: fixed inner step, s.
+        propagation: (L,) factors on passed-on force; None for 1, which is physics (PHYSICS C3.1).
+
+    """
+    skeleton, rods, drag = build_skeleton(plant), build_rods(plant), build_drag(plant)
+    link_probe, probe_position = _place_probes(skeleton, drag)
+    model = Model(
+        skeleton=skeleton,
+        rods=rods,
+        drag=drag,
+        material=plant.material,
+        time_step=time_step,
+        stem_frequency=stem_frequencies(skeleton, rods),
+        damping_ratio=np.full(plant.stem_count, plant.material.damping_ratio),
+        propagation=np.ones(plant.link_count) if propagation is None else propagation,
+        link_probe=link_probe,
+        probe_position=probe_position,
+        constants=np.empty((0, CONSTANT_COUNT), np.float32),
+    )
+    return replace(model, constants=pack_constants(model))
+
+
+def _place_probes(skeleton: Skeleton, drag: Drag) -> tuple[Ints, Floats]:
+    """One probe for every occupied cell of a grid, at the mean of the drag centres in it."""
+    centre = skeleton.base + drag.centre[:, None] * skeleton.vector
+    cell = np.floor(centre / PROBE_SPACING).astype(np.int64)
+    _, link_probe, size = np.unique(cell, axis=0, return_inverse=True, return_counts=True)
+    link_probe = link_probe.ravel()
+    position = np.column_stack([np.bincount(link_probe, centre[:, i]) / size for i in range(3)])
+    return link_probe.astype(np.int32), position.astype(np.float32)
+
+
+def exact_step(frequency: Doubles, damping_ratio: Doubles, time_step: float) -> Doubles:
+    """The damped oscillator y'' + 2 zeta omega y' + omega^2 y = 0 advanced exactly (PHYSICS A2, Quigley).
+
+    Args:
+        frequency: (n,) omega, rad/s.
+        damping_ratio: (n,) zeta, below 1.
+        time_step: s.
+
+    Returns:
+        (n, 4) coefficients xx, xv, vx, vv of (y, v) -> (xx y + xv v, vx y + vv v).
+
+    """
+    damped = frequency * np.sqrt(1.0 - damping_ratio**2)
+    decay = np.exp(-damping_ratio * frequency * time_step)
+    cosine, sine = np.cos(damped * time_step), np.sin(damped * time_step) / damped
+    friction = damping_ratio * frequency * sine
+    return np.column_stack(
+        [decay * (cosine + friction), decay * sine, -decay * frequency**2 * sine, decay * (cosine - friction)]
+    )
+
+
+def drag_mobility(model: Model) -> Doubles:
+    """(L,) how fast a unit drag coefficient's field slows each link down, 1/m.
+
+    If every link felt the force c v e with its own drag constant c, along one axis e, its drag centre would
+    accelerate by mobility x v. The kernel divides the damping part of drag by 1 + mobility |u| dt, which
+    bounds the feedback at any wind speed (no step is too long), and leaves the static force untouched.
+    """
+    skeleton, drag = model.skeleton, model.drag
+    coefficient = drag.leaf[:, :3].sum(axis=1) + drag.wood
+    tree = (skeleton.parent, 0, skeleton.attach, skeleton.vector, skeleton.axes)
+    lever = drag.centre[:, None] * skeleton.vector
+    mobility = np.zeros(len(coefficient))
+    for axis in np.eye(3):
+        force = coefficient[:, None] * axis
+        torque = joint_torque(*tree, force.copy(), np.cross(lever, force))
+        angular, linear = joint_motion(*tree, torque / model.joint_inertia)
+        speed = np.linalg.norm(linear + np.cross(angular, lever), axis=1)
+        mobility = np.maximum(mobility, speed)
+    return mobility
+
+
+def pack_constants(model: Model) -> Floats:
+    """(L, CONSTANT_COUNT) constants in the columns that the kernels read."""
+    skeleton, drag = model.skeleton, model.drag
+    packed = np.zeros((model.link_count, CONSTANT_COUNT), np.float32)
+    packed[:, AXIS_1 : AXIS_1 + 3] = skeleton.axes[:, 0]
+    packed[:, AXIS_2 : AXIS_2 + 3] = skeleton.axes[:, 1]
+    packed[:, VECTOR : VECTOR + 3] = skeleton.vector
+    packed[:, ATTACH] = skeleton.attach
+    root = skeleton.parent < 0
+    packed[root, OFFSET : OFFSET + 3] = skeleton.base[root]
+    packed[:, DRAG_CENTRE] = drag.centre
+    packed[:, DRAG_LEAF : DRAG_LEAF + 6] = drag.leaf
+    packed[:, DRAG_WOOD] = drag.wood
+    packed[:, INVERSE_SQUARE] = 1.0 / skeleton.length**2
+    packed[:, MOBILITY] = model.time_step * drag_mobility(model)
+    packed[:, COMPLIANCE_1] = model.rods.compliance[:, 0]
+    packed[:, COMPLIANCE_2] = model.rods.compliance[:, 1]
+    stem_step = exact_step(model.stem_frequency, model.damping_ratio, model.time_step)
+    packed[:, STEP_XX : STEP_VV + 1] = stem_step[skeleton.stem]
+    packed[:, PROPAGATION] = model.propagation
+    return packed

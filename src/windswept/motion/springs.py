@@ -1,0 +1,287 @@
+"""`springs`: every joint on two angular springs, each its own oscillator driven by what hangs on it (Beaudoin).
+
+One step, for one placement::
+
+    pose    root to leaf   rotation and place of every link from the joint angles
+    drag                   force of the wind on the link, from the air's velocity relative to it
+    load    leaf to root   force F and moment M of everything beyond the joint
+    joint                  towards the angle compliance x torque, by the exact damped-oscillator step
+
+`springs_plain.py` is the same in NumPy for one placement, and the tests hold the two together.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import get_num_threads, get_thread_id, njit, prange
+
+from windswept.motion.drag import reconfiguration
+from windswept.motion.lanes import WIDTH, load, settled, sqrt, store
+from windswept.motion.model import (
+    ATTACH,
+    AXIS_1,
+    AXIS_2,
+    COMPLIANCE_1,
+    COMPLIANCE_2,
+    DRAG_CENTRE,
+    DRAG_LEAF,
+    DRAG_WOOD,
+    INVERSE_SQUARE,
+    MOBILITY,
+    OFFSET,
+    PROPAGATION,
+    STEP_VV,
+    STEP_VX,
+    STEP_XV,
+    STEP_XX,
+    VECTOR,
+    Model,
+)
+from windswept.motion.rotation import (
+    add_scaled,
+    cross,
+    dot,
+    from_rotation_vector,
+    multiply,
+    rotate,
+    rotate_back,
+)
+from windswept.motion.state import State
+from windswept.plants.plant import Floats, Ints
+
+MAX_ANGLE = 1.5
+"""A joint's equilibrium angle saturates here, rad; below 0.3 rad the law is linear to 1 in 1,000."""
+REST_THRESHOLD = 1e-9
+"""Angles (rad) and velocities (rad/s) below this are put to rest: dying motion must not end in denormals."""
+
+_F = np.float32
+_W = np.uintp(WIDTH)
+_RECORD = np.uintp(13 * WIDTH)
+"""Scratch of a link: rotation (4), joint (3), force (3), moment about the origin (3)."""
+_SLOT = np.uintp(12 * WIDTH)
+"""Scratch of a depth: angular velocity, joint velocity, link vector, its rate (3 each)."""
+_SUM = np.uintp(6 * WIDTH)
+"""Scratch of a depth: summed force and moment of the links hanging there."""
+_THRESHOLD: Any = _F(REST_THRESHOLD)
+_INVERSE_MAX_ANGLE = _F(1.0 / MAX_ANGLE)
+_TINY = _F(1e-30)
+
+
+@njit(fastmath=True, forceinline=True)
+def load3(a, i):  # type: ignore[no-untyped-def]
+    """Three consecutive registers."""
+    return load(a, i), load(a, i + _W), load(a, i + _W + _W)
+
+
+@njit(fastmath=True, forceinline=True)
+def store3(a, i, v):  # type: ignore[no-untyped-def]
+    """Writes three consecutive registers."""
+    store(a, i, v[0])
+    store(a, i + _W, v[1])
+    store(a, i + _W + _W, v[2])
+
+
+@njit(fastmath=True, forceinline=True)
+def load4(a, i):  # type: ignore[no-untyped-def]
+    """Four consecutive registers."""
+    v = load3(a, i)
+    return v[0], v[1], v[2], load(a, i + _W * np.uintp(3))
+
+
+@njit(fastmath=True, forceinline=True)
+def constant3(constants, link, column):  # type: ignore[no-untyped-def]
+    """Three columns of a link's constants."""
+    return constants[link, column], constants[link, column + 1], constants[link, column + 2]
+
+
+@njit(fastmath=True, forceinline=True)
+def drag_force(c, link, wind, v, d):  # type: ignore[no-untyped-def]
+    """Force on a link: wind (velocity and leaf reconfiguration), velocity v of the drag centre, link vector d."""
+    u = add_scaled(wind, v, _F(-1.0))
+    speed = sqrt(dot(u, u) + _TINY)
+    u = add_scaled(wind, v, _F(-1.0) / (_F(1.0) + speed * c[link, MOBILITY]))
+    t = DRAG_LEAF
+    leaf = (
+        u[0] * c[link, t] + u[1] * c[link, t + 3] + u[2] * c[link, t + 4],
+        u[0] * c[link, t + 3] + u[1] * c[link, t + 1] + u[2] * c[link, t + 5],
+        u[0] * c[link, t + 4] + u[1] * c[link, t + 5] + u[2] * c[link, t + 2],
+    )
+    across = add_scaled(u, d, dot(d, u) * (-c[link, INVERSE_SQUARE]))
+    f, w = speed * wind[3], speed * c[link, DRAG_WOOD]
+    return leaf[0] * f + across[0] * w, leaf[1] * f + across[1] * w, leaf[2] * f + across[2] * w
+
+
+@njit(fastmath=True, forceinline=True)
+def oscillate(c, link, torque, angle, velocity, compliance):  # type: ignore[no-untyped-def]
+    """The exact step of one spring towards compliance x torque, saturated at MAX_ANGLE."""
+    free = torque * compliance
+    z = free * _INVERSE_MAX_ANGLE
+    z = z * z
+    target = free / sqrt(sqrt(z * z + _F(1.0)))
+    y = angle - target
+    moved = target + y * c[link, STEP_XX] + velocity * c[link, STEP_XV]
+    swung = y * c[link, STEP_VX] + velocity * c[link, STEP_VV]
+    return settled(moved, _THRESHOLD), settled(swung, _THRESHOLD)
+
+
+@njit(fastmath=True, forceinline=True)
+def _pose_and_drag(c, depth, probe, joints, wind, a, slots):  # type: ignore[no-untyped-def]
+    """Root to leaf: writes rotation, place, force and moment of every link into the scratch ``a``."""
+    one, three, six, nine = _W, _W * np.uintp(3), _W * np.uintp(6), _W * np.uintp(9)
+    four, seven, ten = _W * np.uintp(4), _W * np.uintp(7), _W * np.uintp(10)
+    for i in range(len(depth)):
+        link = np.uintp(i)
+        joint = link * four
+        above = slots + np.uintp(depth[link]) * _SLOT
+        here = above + _SLOT
+        first, second = constant3(c, link, AXIS_1), constant3(c, link, AXIS_2)
+        angle_1, angle_2 = load(joints, joint), load(joints, joint + one + one)
+        rate_1, rate_2 = load(joints, joint + one), load(joints, joint + three)
+        turn = (
+            angle_1 * first[0] + angle_2 * second[0],
+            angle_1 * first[1] + angle_2 * second[1],
+            angle_1 * first[2] + angle_2 * second[2],
+        )
+        rate = (
+            rate_1 * first[0] + rate_2 * second[0],
+            rate_1 * first[1] + rate_2 * second[1],
+            rate_1 * first[2] + rate_2 * second[2],
+        )
+        parent_record = np.uintp(probe[link, 1]) * _RECORD
+        q_parent = load4(a, parent_record)
+        q = multiply(q_parent, from_rotation_vector(turn))
+        spin = add_scaled(load3(a, above), rotate(q_parent, rate), _F(1.0))
+        d = rotate(q, constant3(c, link, VECTOR))
+        d_rate = cross(spin, d)
+        offset = constant3(c, link, OFFSET)
+        x = add_scaled(load3(a, parent_record + four), load3(a, above + six), c[link, ATTACH])
+        x = (x[0] + offset[0], x[1] + offset[1], x[2] + offset[2])
+        v = add_scaled(load3(a, above + three), load3(a, above + nine), c[link, ATTACH])
+        store3(a, here, spin)
+        store3(a, here + three, v)
+        store3(a, here + six, d)
+        store3(a, here + nine, d_rate)
+        air = load4(wind, np.uintp(probe[link, 0]) * four)
+        force = drag_force(c, link, air, add_scaled(v, d_rate, c[link, DRAG_CENTRE]), d)
+        record = (link + np.uintp(1)) * _RECORD
+        store3(a, record, q)
+        store(a, record + three, q[3])
+        store3(a, record + four, x)
+        store3(a, record + seven, force)
+        store3(a, record + ten, cross(add_scaled(x, d, c[link, DRAG_CENTRE]), force))
+
+
+@njit(fastmath=True, forceinline=True)
+def _load_and_swing(c, depth, probe, joints, a, sums):  # type: ignore[no-untyped-def]
+    """Leaf to root: sums force and moment of every subtree and steps its joint."""
+    one, three, four = _W, _W * np.uintp(3), _W * np.uintp(4)
+    for i in range(len(depth)):
+        link = np.uintp(len(depth) - 1 - i)
+        record = (link + np.uintp(1)) * _RECORD
+        here = sums + np.uintp(depth[link]) * _SUM
+        beyond = here + _SUM
+        force = add_scaled(load3(a, record + _W * np.uintp(7)), load3(a, beyond), _F(1.0))
+        moment = add_scaled(load3(a, record + _W * np.uintp(10)), load3(a, beyond + three), _F(1.0))
+        zero = force[0] * _F(0.0)
+        store3(a, beyond, (zero, zero, zero))
+        store3(a, beyond + three, (zero, zero, zero))
+        pass_on = c[link, PROPAGATION]
+        store3(a, here, add_scaled(load3(a, here), force, pass_on))
+        store3(a, here + three, add_scaled(load3(a, here + three), moment, pass_on))
+        arm = cross(load3(a, record + four), force)
+        torque = rotate_back(load4(a, np.uintp(probe[link, 1]) * _RECORD), add_scaled(moment, arm, _F(-1.0)))
+        joint = link * four
+        angle, rate = oscillate(
+            c,
+            link,
+            dot(torque, constant3(c, link, AXIS_1)),
+            load(joints, joint),
+            load(joints, joint + one),
+            c[link, COMPLIANCE_1],
+        )
+        store(joints, joint, angle)
+        store(joints, joint + one, rate)
+        angle, rate = oscillate(
+            c,
+            link,
+            dot(torque, constant3(c, link, AXIS_2)),
+            load(joints, joint + one + one),
+            load(joints, joint + three),
+            c[link, COMPLIANCE_2],
+        )
+        store(joints, joint + one + one, angle)
+        store(joints, joint + three, rate)
+
+
+@njit(fastmath=True, parallel=True, cache=True)
+def _step_tiles(c, depth, probe, joints, wind, scratch, sum_start, substeps):  # type: ignore[no-untyped-def]
+    """``substeps`` inner steps of every tile; the wind goes linearly from wind[t, 0] to wind[t, 1]."""
+    slots = np.uintp(len(depth) + 1) * _RECORD
+    sums = np.uintp(sum_start)
+    for tile in prange(joints.shape[0]):
+        a = scratch[get_thread_id()]
+        now = a[a.size - wind.shape[2] :]
+        for step in range(substeps):
+            late = _F((step + 1.0) / substeps)
+            now[:] = wind[tile, 0] + late * (wind[tile, 1] - wind[tile, 0])
+            _pose_and_drag(c, depth, probe, joints[tile], now, a, slots)
+            _load_and_swing(c, depth, probe, joints[tile], a, sums)
+
+
+def _scratch(model: Model) -> tuple[Floats, int]:
+    """Per-thread scratch with the ground's record and slot at rest, and where the sums begin."""
+    depths = int(model.skeleton.depth.max()) + 3
+    sum_start = (model.link_count + 1) * int(_RECORD) + depths * int(_SLOT)
+    size = sum_start + depths * int(_SUM) + 4 * len(model.probe_position) * WIDTH
+    scratch = np.zeros((get_num_threads(), size), np.float32)
+    scratch[:, 3 * WIDTH : 4 * WIDTH] = 1.0
+    return scratch, sum_start
+
+
+class Stepper:
+    """Steps states of one model; owns the scratch memory that the kernel works in."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self._probe_and_parent: Ints = np.column_stack([model.link_probe, model.skeleton.parent + 1]).astype(
+            np.int32
+        )
+        self._scratch, self._sum_start = _scratch(model)
+
+    def step(self, state: State, wind_before: Floats, wind_after: Floats, substeps: int = 1) -> State:
+        """Advances a state by ``substeps`` inner steps.
+
+        Args:
+            state: stepped in place and returned.
+            wind_before: (P, B, 3) air velocity at the probes in the plant's frame when the steps begin, m/s.
+            wind_after: the same when they end.
+            substeps: number of inner steps, each ``model.time_step`` long.
+
+        """
+        wind = np.stack([pack_wind(self.model, wind_before), pack_wind(self.model, wind_after)], axis=1)
+        tiles = state.joints.reshape(len(state.joints), -1)
+        _step_tiles(
+            self.model.constants,
+            self.model.skeleton.depth,
+            self._probe_and_parent,
+            tiles,
+            wind,
+            self._scratch,
+            self._sum_start,
+            substeps,
+        )
+        state.step_count += substeps
+        return state
+
+
+def pack_wind(model: Model, wind: Floats) -> Floats:
+    """(T, B * 4 * WIDTH) probe winds as the kernel reads them: velocity and leaf reconfiguration, lanes fastest."""
+    placements, probes, _ = wind.shape
+    tiles = -(-placements // WIDTH)
+    packed = np.zeros((tiles * WIDTH, probes, 4), np.float32)
+    packed[:placements, :, :3] = wind
+    packed[:placements, :, 3] = reconfiguration(model.material, np.linalg.norm(wind, axis=2))
+    lanes_last = packed.reshape(tiles, WIDTH, probes, 4).transpose(0, 2, 3, 1)
+    return np.ascontiguousarray(lanes_last).reshape(tiles, -1)
