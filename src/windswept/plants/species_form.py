@@ -1,0 +1,159 @@
+"""The species form: what a species file may say, and reading one.
+
+A species file is TOML. Angles are degrees and lengths metres; the names are Weber and Penn's (1995) in snake
+case. Nothing in a file is ever executed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from windswept.plants.plant import Look, Material
+
+Identifier = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,63}$")]
+Line = Annotated[str, Field(max_length=200, pattern=r"^[^\r\n]*$")]
+Angle = Annotated[float, Field(ge=-360, le=360)]
+Spread = Annotated[float, Field(ge=0, le=360)]
+Share = Annotated[float, Field(ge=0, le=1)]
+Colour = Annotated[tuple[Share, Share, Share], Field(strict=False)]
+
+_MATERIAL, _LOOK = asdict(Material()), asdict(Look())
+
+
+class Form(BaseModel):
+    """A table of a species file: no unknown keys, no guessed types, no NaN, no infinity."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+
+
+class Level(Form):
+    """How the stems of one branching order grow; the last table also serves every order after it.
+
+    The table whose number is `Growth.levels` tells how leaves stand: only its angles are used.
+    """
+
+    down_angle: Angle = 0.0
+    """nDownAngle, angle between a stem and its parent; on level 0 the lean of the trunk."""
+    down_angle_v: Angle = 0.0
+    """nDownAngleV; negative: the angle changes along the parent instead of at random."""
+    rotate: Angle = 0.0
+    """nRotate, turn round the parent from one stem to the next; negative: to alternate sides. Not on level 0."""
+    rotate_v: Angle = 0.0
+    branches: Annotated[int, Field(ge=0, le=1000)] = 0
+    """nBranches, most stems of this level on one parent; not used on level 0."""
+    length: Annotated[float, Field(ge=0, le=10)] = 0.0
+    """nLength, as a fraction of the parent's length (level 0: of the tree's scale)."""
+    length_v: Annotated[float, Field(ge=0, le=10)] = 0.0
+    taper: Annotated[float, Field(ge=0, le=3)] = 1.0
+    """nTaper: 0 cylinder, 1 cone, 2 rounded end, 3 beads."""
+    seg_splits: Annotated[float, Field(ge=0, le=4)] = 0.0
+    """nSegSplits, mean number of clones at the end of a segment."""
+    split_angle: Annotated[float, Field(ge=0, le=180)] = 0.0
+    split_angle_v: Annotated[float, Field(ge=0, le=180)] = 0.0
+    curve_res: Annotated[int, Field(ge=1, le=64)] = 1
+    """nCurveRes, number of segments of a stem."""
+    curve: Angle = 0.0
+    """nCurve, by which a stem turns from base to tip, away from its parent."""
+    curve_back: Angle = 0.0
+    """nCurveBack: when not 0, the upper half turns by this and the lower half by `curve`."""
+    curve_v: Angle = 0.0
+    """nCurveV; negative: the stem is a helix at this angle to its axis."""
+
+
+class Growth(Form):
+    """Weber and Penn's parameters of the whole tree."""
+
+    shape: Annotated[int, Field(ge=0, le=8)]
+    """Shape of the crown: 0 conical, 1 spherical, 2 hemispherical, 3 cylindrical, 4 tapered cylindrical,
+    5 flame, 6 inverse conical, 7 tend flame, 8 the pruning envelope."""
+    levels: Annotated[int, Field(ge=1, le=4)]
+    """Levels, number of branching orders; leaves stand on the last."""
+    scale: Annotated[float, Field(ge=0.05, le=150)]
+    """Scale, m."""
+    scale_v: Annotated[float, Field(ge=0, le=150)] = 0.0
+    base_size: Annotated[float, Field(ge=0, le=0.95)] = 0.0
+    """BaseSize, bare fraction of the trunk."""
+    ratio: Annotated[float, Field(ge=0.001, le=0.5)]
+    """Ratio, trunk radius over trunk length."""
+    ratio_power: Annotated[float, Field(ge=0, le=5)] = 1.0
+    """RatioPower, how fast radius falls with length from parent to child."""
+    flare: Annotated[float, Field(ge=0, le=10)] = 0.0
+    lobes: Annotated[int, Field(ge=0, le=32)] = 0
+    lobe_depth: Annotated[float, Field(ge=0, le=0.9)] = 0.0
+    base_splits: Annotated[int, Field(ge=0, le=32)] = 0
+    """0BaseSplits, clones of the trunk at the end of its first segment."""
+    leaves: Annotated[int, Field(ge=-1000, le=1000)] = 0
+    """Leaves, most leaves on one stem; negative: that many in a fan at the tip."""
+    leaf_scale: Annotated[float, Field(ge=0.001, le=5)] = 0.1
+    """LeafScale, length of a leaf, m."""
+    leaf_scale_x: Annotated[float, Field(ge=0.01, le=10)] = 1.0
+    """LeafScaleX, width of a leaf over its length."""
+    leaf_bend: Share = 0.0
+    """LeafBend, how far leaves turn to the light."""
+    leaf_quality: Annotated[float, Field(ge=0.01, le=1)] = 1.0
+    """Fraction of the leaves that are grown, larger, so that their area stays."""
+    attraction_up: Annotated[float, Field(ge=-20, le=20)] = 0.0
+    """AttractionUp, from order 2 on; negative: stems weep."""
+    prune_ratio: Share = 0.0
+    """PruneRatio: 0 no pruning, 1 everything inside the envelope."""
+    prune_width: Annotated[float, Field(gt=0, le=2)] = 0.5
+    """PruneWidth, radius of the envelope over the tree's scale."""
+    prune_width_peak: Annotated[float, Field(ge=0, le=0.99)] = 0.5
+    """PruneWidthPeak, fraction of the crown's height at which the envelope is widest."""
+    prune_power_low: Annotated[float, Field(ge=0, le=10)] = 0.5
+    prune_power_high: Annotated[float, Field(ge=0, le=10)] = 0.5
+    scale_0: Annotated[float, Field(ge=0.1, le=10)] = 1.0
+    """0Scale, factor on the trunk's radius alone."""
+    scale_v_0: Annotated[float, Field(ge=0, le=10)] = 0.0
+    level: Annotated[list[Level], Field(min_length=1, max_length=5)]
+
+    def at(self, order: int) -> Level:
+        """The table that serves a branching order."""
+        return self.level[min(order, len(self.level) - 1)]
+
+
+class MaterialForm(Form):
+    """The fields of `Material`."""
+
+    youngs_modulus: Annotated[float, Field(ge=1e6, le=1e11)] = _MATERIAL["youngs_modulus"]
+    wood_density: Annotated[float, Field(ge=50, le=2000)] = _MATERIAL["wood_density"]
+    damping_ratio: Annotated[float, Field(ge=0, le=1)] = _MATERIAL["damping_ratio"]
+    leaf_mass: Annotated[float, Field(ge=0.001, le=20)] = _MATERIAL["leaf_mass"]
+    leaf_drag: Annotated[float, Field(ge=0, le=5)] = _MATERIAL["leaf_drag"]
+    wood_drag: Annotated[float, Field(ge=0, le=5)] = _MATERIAL["wood_drag"]
+    reconfiguration: Annotated[float, Field(ge=-2, le=0)] = _MATERIAL["reconfiguration"]
+    reconfiguration_speed: Annotated[float, Field(ge=0.1, le=100)] = _MATERIAL["reconfiguration_speed"]
+
+
+class LookForm(Form):
+    """The fields of `Look`."""
+
+    bark_colour: Colour = _LOOK["bark_colour"]
+    bark_relief: Share = _LOOK["bark_relief"]
+    leaf_colour: Colour = _LOOK["leaf_colour"]
+    leaf_back_colour: Colour = _LOOK["leaf_back_colour"]
+    leaf_shape: Literal["oval", "round", "lance", "lobed", "needle"] = _LOOK["leaf_shape"]
+    leaf_flutter: Share = _LOOK["leaf_flutter"]
+
+
+class Species(Form):
+    """Everything a species file says."""
+
+    name: Identifier
+    common_name: Line
+    latin_name: Line = ""
+    summary: Line = ""
+    growth: Growth
+    material: MaterialForm = MaterialForm()
+    look: LookForm = LookForm()
+
+    def plant_material(self) -> Material:
+        """What the plant's wood and leaves are made of."""
+        return Material(**self.material.model_dump())
+
+    def plant_look(self) -> Look:
+        """What the plant looks like."""
+        return Look(**self.look.model_dump())
