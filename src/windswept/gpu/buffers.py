@@ -1,0 +1,43 @@
+"""Buffers on the card that are filled from NumPy arrays and grow when a frame needs more."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import wgpu
+from numpy.typing import NDArray
+
+STORAGE = wgpu.BufferUsage.STORAGE | wgpu.BufferUsage.COPY_DST | wgpu.BufferUsage.COPY_SRC
+UNIFORM = wgpu.BufferUsage.UNIFORM | wgpu.BufferUsage.COPY_DST
+UNIFORM_STRIDE = 256
+"""Alignment that every device accepts for dynamic uniform offsets, bytes."""
+
+
+def filled(device: Any, rows: NDArray[Any], usage: int = STORAGE) -> Any:
+    """Buffer that holds an array; at least one row long, since a binding may not be empty."""
+    if len(rows) == 0:
+        rows = np.zeros(1, rows.dtype)
+    return device.create_buffer_with_data(data=np.ascontiguousarray(rows), usage=usage)
+
+
+class GrowingBuffer:
+    """Storage for rows of one layout; contents are lost when it grows."""
+
+    def __init__(self, device: Any, layout: np.dtype[np.void]) -> None:
+        self._device = device
+        self._row = layout.itemsize
+        self.buffer: Any = None
+        self.reserve(1)
+
+    def reserve(self, rows: int) -> None:
+        """Make room for this many rows, with a little to spare."""
+        if self.buffer is None or self.buffer.size < rows * self._row:
+            size = max(rows + rows // 4, 64) * self._row
+            self.buffer = self._device.create_buffer(size=size, usage=STORAGE)
+
+    def write(self, rows: NDArray[Any], first: int = 0) -> None:
+        """Copy rows to the card; there must be room."""
+        if len(rows):
+            data = np.ascontiguousarray(rows)
+            self._device.queue.write_buffer(self.buffer, first * self._row, data)

@@ -1,0 +1,60 @@
+"""The graphics device: found once a process, with one clear line where there is none."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from functools import cache
+from typing import Any
+
+import wgpu
+
+from windswept.errors import GraphicsError
+
+DRIVER_LINE = "apt-get install -y --no-install-recommends mesa-vulkan-drivers"
+"""Installs a software Vulkan driver on Debian and Ubuntu."""
+_RAISED_LIMITS = ("max-storage-buffer-binding-size", "max-buffer-size")
+
+
+@cache
+def shared_device() -> Any:
+    """The one ``wgpu.GPUDevice`` of this process.
+
+    Raises:
+        GraphicsError: no adapter, or the driver refused.
+    """
+    adapter = _best_adapter()
+    limits = {name: adapter.limits[name] for name in _RAISED_LIMITS}
+    try:
+        return adapter.request_device_sync(label="windswept", required_limits=limits)
+    except RuntimeError as error:
+        raise GraphicsError(f"the graphics driver of {_name(adapter)} failed: {error}") from error
+
+
+def adapter_summary() -> str:
+    """One line on the adapter that pictures are drawn with.
+
+    Raises:
+        GraphicsError: no adapter.
+    """
+    adapter = _best_adapter()
+    return f"{_name(adapter)}, {adapter.info['adapter_type']}, {adapter.info['backend_type']}"
+
+
+def is_software(device: Any) -> bool:
+    """Whether the device draws on the CPU, where triangles are dear."""
+    return bool(device.adapter.info["adapter_type"] == "CPU")
+
+
+def _name(adapter: Any) -> str:
+    return adapter.info["device"] or adapter.info["description"]
+
+
+@cache
+def _best_adapter() -> Any:
+    """The adapter wgpu prefers; enumerated first, since asking for one that is not there panics."""
+    if "XDG_RUNTIME_DIR" not in os.environ:
+        os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="windswept-runtime-")
+    if not wgpu.gpu.enumerate_adapters_sync():
+        raise GraphicsError(f"no graphics adapter found; a software one comes with: {DRIVER_LINE}")
+    return wgpu.gpu.request_adapter_sync(power_preference="high-performance")

@@ -1,0 +1,184 @@
+"""Frame -> what is drawn of every placement and where its posed parts lie: the only choice made per frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windswept.geometry.detail import BUCKETS, LEAF_MESHES, Detail, DetailRules, choose_detail
+from windswept.gpu import layouts
+from windswept.gpu.frame import Camera, PosedPlants
+from windswept.gpu.plant_buffers import Kind
+
+Doubles = NDArray[np.float64]
+
+NEAREST = 1.0
+"""Distance at which detail stops growing, m."""
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """What can be seen and what can throw a shadow into it."""
+
+    camera: Camera
+    screen_height: int
+    planes: Doubles
+    """(5, 4) planes of the frustum, positive inside."""
+    sun: Doubles
+    """(3,) unit direction towards the sun."""
+    shadow_centre: Doubles
+    """(3,) middle of the ball that receives shadows, m."""
+    shadow_radius: float
+
+
+@dataclass(frozen=True, slots=True)
+class ItemRange:
+    """Posed items of one bucket: those that only throw shadows, then those seen near by, then those far off."""
+
+    first: int
+    hidden: int
+    """Items out of sight, at the front."""
+    casters: int
+    """Items that throw shadows, from the front."""
+    total: int
+
+
+@dataclass(frozen=True, slots=True)
+class DrawList:
+    """What one frame poses and draws."""
+
+    placements: NDArray[np.void]
+    """(n,) ``PLACEMENT`` rows of the placements that matter."""
+    pieces: tuple[ItemRange, ...]
+    """One for each bucket of stems."""
+    leaves: tuple[ItemRange, ...]
+    """One for each leaf mesh."""
+    stem_most: int
+    """Most stems, pieces and leaves of a single placement: how far the compute grids reach."""
+    piece_most: int
+    leaf_most: int
+
+    @property
+    def piece_count(self) -> int:
+        """Posed pieces of all buckets."""
+        return sum(bucket.total for bucket in self.pieces)
+
+    @property
+    def leaf_count(self) -> int:
+        """Posed leaves of all meshes."""
+        return sum(mesh.total for mesh in self.leaves)
+
+
+def draw_list(
+    kinds: tuple[Kind, ...], plants: tuple[PosedPlants, ...], view: View, rules: DetailRules
+) -> DrawList:
+    """Choose detail, drop what neither is seen nor throws a shadow, and lay out the posed items.
+
+    Args:
+        kinds: what the card holds.
+        plants: placements of each kind.
+        view: camera and shadow volume.
+        rules: what may be spent.
+    """
+    rows, centres, radii, meshes = [], [], [], []
+    link_first = shift_first = 0
+    for look, (kind, posed) in enumerate(zip(kinds, plants, strict=True)):
+        centre = _placed_centres(kind, posed)
+        detail = choose_detail(kind.order, _pixels(view, centre, kind.radius), rules)
+        rows.append(_placement_rows(kind, posed, detail, look, link_first, shift_first))
+        centres.append(centre)
+        radii.append(np.full(len(centre), kind.radius))
+        meshes.append(detail.leaf_mesh)
+        link_first += len(posed.position) * kind.link_count
+        shift_first += len(posed.position) * kind.stem_count
+    return _arrange(
+        np.concatenate(rows), np.concatenate(centres), np.concatenate(radii), np.concatenate(meshes), view
+    )
+
+
+def _placed_centres(kind: Kind, posed: PosedPlants) -> Doubles:
+    """(P, 3) middle of every placement in the world, m."""
+    x, y, z = kind.centre
+    cosine, sine = np.cos(posed.yaw), np.sin(posed.yaw)
+    turned = np.stack([cosine * x - sine * y, sine * x + cosine * y, np.full(len(cosine), z)], axis=1)
+    return posed.position + turned
+
+
+def _pixels(view: View, centre: Doubles, radius: float) -> Doubles:
+    """(P,) pixels a metre takes in the nearer half of each placement."""
+    away = np.linalg.norm(centre - np.asarray(view.camera.eye), axis=1) - 0.5 * radius
+    return view.screen_height / (2.0 * np.tan(0.5 * view.camera.fov_y) * np.maximum(away, NEAREST))
+
+
+def _placement_rows(
+    kind: Kind, posed: PosedPlants, detail: Detail, look: int, link_first: int, shift_first: int
+) -> NDArray[np.void]:
+    """``PLACEMENT`` rows without the places of their posed items."""
+    count = len(posed.position)
+    number = np.arange(count)
+    rows = np.zeros(count, layouts.PLACEMENT)
+    rows["position"][:, :3] = posed.position
+    rows["position"][:, 3] = np.cos(posed.yaw)
+    phase = (number * 0.7548776662 + 0.13 * look) % 1.0
+    rows["heading"] = np.stack([np.sin(posed.yaw), posed.flutter, phase, detail.size_cut], axis=1)
+    rows["rows"][:, 0] = link_first + number * kind.link_count
+    rows["rows"][:, 1] = shift_first + number * kind.stem_count
+    rows["rows"][:, 2:] = kind.stem_first, kind.stem_count
+    rows["first"] = kind.piece_first, kind.leaf_first, 0, look
+    rows["piece_limit"] = detail.piece_limit
+    rows["leaves"] = np.stack(
+        [detail.leaf_count, detail.leaf_cut, detail.leaf_fade, detail.leaf_scale], axis=1
+    )
+    return rows
+
+
+def _arrange(
+    rows: NDArray[np.void], centres: Doubles, radii: Doubles, mesh: NDArray[np.int32], view: View
+) -> DrawList:
+    """Order placements as shadows only, near, far; then give each its places among the posed items."""
+    seen = (centres @ view.planes[:, :3].T + view.planes[:, 3] > -radii[:, None]).all(axis=1)
+    casts = _casts(centres, radii, view)
+    distance = np.linalg.norm(centres - np.asarray(view.camera.eye), axis=1)
+    group = np.where(~seen, 0, np.where(casts, 1, 2))
+    order = np.lexsort([distance, group])
+    order = order[(seen | casts)[order]]
+    rows, seen, casts, mesh = rows[order], seen[order], casts[order], mesh[order]
+
+    piece_counts = np.diff(rows["piece_limit"].astype(np.int64), axis=1, prepend=0)
+    leaf_counts = rows["leaves"][:, 0].astype(np.int64)
+    by_mesh = np.where(mesh[:, None] == np.arange(LEAF_MESHES), leaf_counts[:, None], 0)
+    piece_out, piece_ranges = _lay_out(piece_counts, seen, casts)
+    leaf_out, leaf_ranges = _lay_out(by_mesh, seen, casts)
+    rows["piece_out"] = piece_out
+    rows["first"][:, 2] = np.take_along_axis(leaf_out, mesh[:, None].astype(np.int64), axis=1)[:, 0]
+    return DrawList(
+        rows,
+        piece_ranges,
+        leaf_ranges,
+        int(rows["rows"][:, 3].max(initial=0)),
+        int(rows["piece_limit"][:, BUCKETS - 1].max(initial=0)),
+        int(leaf_counts.max(initial=0)),
+    )
+
+
+def _casts(centres: Doubles, radii: Doubles, view: View) -> NDArray[np.bool_]:
+    """(n,) whether a placement's shadow can fall into the ball that receives shadows."""
+    offset = centres - view.shadow_centre
+    along = offset @ view.sun
+    aside = np.linalg.norm(offset - along[:, None] * view.sun, axis=1)
+    reach = view.shadow_radius + radii
+    return (aside < reach) & (along > -reach) & (along < 4.0 * reach)
+
+
+def _lay_out(
+    counts: NDArray[np.int64], seen: NDArray[np.bool_], casts: NDArray[np.bool_]
+) -> tuple[NDArray[np.int64], tuple[ItemRange, ...]]:
+    """Places (n, buckets) for ``counts`` items, bucket after bucket, and the range of each bucket."""
+    totals = counts.sum(axis=0)
+    bucket_first = np.concatenate([[0], np.cumsum(totals)[:-1]])
+    places = bucket_first + np.cumsum(counts, axis=0) - counts
+    hidden, casting = counts[~seen].sum(axis=0), counts[casts].sum(axis=0)
+    ranges = zip(bucket_first, hidden, casting, totals, strict=True)
+    return places, tuple(ItemRange(*(int(value) for value in values)) for values in ranges)

@@ -1,0 +1,68 @@
+"""What the renderer is told of one moment: where plants stand, how they are posed, who looks, and the light."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from windswept.plants.plant import Floats
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """A pinhole camera; +Z is up."""
+
+    eye: Vector
+    """Position, m."""
+    target: Vector
+    """Point it looks at, m."""
+    fov_y: float = 0.7
+    """Full vertical angle of view, rad."""
+
+
+@dataclass(frozen=True, slots=True)
+class PosedPlants:
+    """P placements of one kind of plant, as they are at one moment."""
+
+    link: Floats
+    """(P, L, 8) ``Pose.link``."""
+    position: Floats
+    """(P, 3) roots in the world, m."""
+    yaw: Floats
+    """(P,) turn about +Z, rad."""
+    flutter: Floats
+    """(P,) how far a readily fluttering leaf trembles, rad; 0 in calm air."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """Terrain heights on a regular grid; the renderer carries it on to the horizon."""
+
+    height: Floats
+    """(ny, nx) z of the ground, m; at least 2 by 2."""
+    origin: tuple[float, float]
+    """x, y of ``height[0, 0]``, m."""
+    spacing: float
+    """Distance between neighbours, m."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """One picture to draw."""
+
+    plants: tuple[PosedPlants, ...]
+    """One entry for each geometry the renderer holds, in its order."""
+    camera: Camera
+    sun: Vector = (-0.55, -0.35, 0.62)
+    """Direction towards the sun, any length."""
+    time: float = 0.0
+    """s; drives flutter, grass and clouds, never the plants' poses."""
+    wind: tuple[float, float] = (0.0, 0.0)
+    """Mean horizontal wind, m/s: sways grass and drifts clouds."""
+
+
+FLAT_GROUND = Ground(np.zeros((2, 2), np.float32), (-50.0, -50.0), 100.0)
+"""A level plane at z = 0."""

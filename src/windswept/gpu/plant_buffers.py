@@ -1,0 +1,147 @@
+"""Geometries as the card holds them: the stems, pieces and leaves of every kind of plant, one after another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windswept.geometry.detail import DetailOrder, detail_order, stem_size
+from windswept.geometry.geometry import Geometry
+from windswept.geometry.leaves import LEAF_SHAPES
+from windswept.gpu import layouts
+from windswept.plants.plant import Floats, Look
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """Where one kind of plant lies in the common buffers, and what detail needs of it."""
+
+    order: DetailOrder
+    stem_first: int
+    stem_count: int
+    piece_first: int
+    leaf_first: int
+    link_count: int
+    centre: NDArray[np.float64]
+    """(3,) middle of the plant at rest, m."""
+    radius: float
+    """Of a ball round the plant at rest, m."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlantArrays:
+    """Rest data of all kinds in the layouts of ``types.wgsl``."""
+
+    kinds: tuple[Kind, ...]
+    stems: NDArray[np.void]
+    pieces: NDArray[np.void]
+    leaves: NDArray[np.void]
+    looks: NDArray[np.void]
+
+
+def plant_arrays(geometries: list[Geometry], link_bases: list[Floats], looks: list[Look]) -> PlantArrays:
+    """Bring all kinds into the card's layouts.
+
+    Args:
+        geometries: one for each kind.
+        link_bases: (L, 3) joints at rest of each kind, m.
+        looks: one for each kind, at most ``LOOK_LIMIT``.
+    """
+    kinds: list[Kind] = []
+    stems, pieces, leaves = [], [], []
+    stem_first = piece_first = leaf_first = 0
+    for geometry, link_base in zip(geometries, link_bases, strict=True):
+        order = detail_order(geometry)
+        stems.append(_stems(geometry, order))
+        pieces.append(_pieces(geometry, order, link_base))
+        leaves.append(_leaves(geometry, order, link_base))
+        centre, radius = _ball(geometry)
+        kinds.append(
+            Kind(
+                order,
+                stem_first,
+                geometry.stem_count,
+                piece_first,
+                leaf_first,
+                len(link_base),
+                centre,
+                radius,
+            )
+        )
+        stem_first += geometry.stem_count
+        piece_first += geometry.piece_count
+        leaf_first += geometry.leaf_count
+    return PlantArrays(
+        tuple(kinds),
+        np.concatenate(stems),
+        np.concatenate(pieces),
+        np.concatenate(leaves),
+        _looks(looks),
+    )
+
+
+def _stems(geometry: Geometry, order: DetailOrder) -> NDArray[np.void]:
+    """Stems in their own order; the piece they grow out of is named by its place in drawing order."""
+    rank = np.empty(geometry.piece_count, np.int64)
+    rank[order.piece_order] = np.arange(geometry.piece_count)
+    rows = np.zeros(geometry.stem_count, layouts.STEM)
+    rows["profile"] = _columns(
+        geometry.stem_radius, geometry.stem_taper, geometry.stem_flare, geometry.stem_lobes
+    )
+    rows["extent"] = _columns(
+        geometry.stem_lobe_depth, *geometry.stem_taper_span.T, geometry.stem_taper_length
+    )
+    rows["attach"] = _columns(geometry.stem_attach_t, stem_size(geometry), geometry.stem_reach, 0.0)
+    is_trunk = geometry.stem_parent < 0
+    parent = np.where(is_trunk, layouts.NONE, geometry.stem_parent)
+    piece = np.where(is_trunk, 0, rank[geometry.stem_attach_piece])
+    rows["rows"] = _columns(parent, geometry.stem_link, piece, 0)
+    return rows
+
+
+def _pieces(geometry: Geometry, order: DetailOrder, link_base: Floats) -> NDArray[np.void]:
+    """Pieces in drawing order, control points relative to the joints of their links."""
+    rows = np.zeros(geometry.piece_count, layouts.PIECE)
+    points = geometry.piece_points - link_base[np.repeat(geometry.piece_link, 2, axis=1)]
+    extra = [*geometry.piece_span.T, *geometry.piece_openness.T]
+    for k, name in enumerate(("p0", "p1", "p2", "p3")):
+        rows[name] = _columns(*points[:, k].T, extra[k])
+    rows["side0"] = _columns(*geometry.piece_side[:, 0].T, 0.0)
+    rows["side1"] = _columns(*geometry.piece_side[:, 1].T, 0.0)
+    rows["rows"] = _columns(geometry.piece_stem, *geometry.piece_link.T, 0)
+    return rows[order.piece_order]
+
+
+def _leaves(geometry: Geometry, order: DetailOrder, link_base: Floats) -> NDArray[np.void]:
+    """Leaves by rank, attachments relative to the joints of their links."""
+    rows = np.zeros(geometry.leaf_count, layouts.LEAF)
+    offset = geometry.leaf_position - link_base[geometry.leaf_link]
+    chance = (geometry.leaf_rank * 0.6180339887) % 1.0
+    rows["position"] = _columns(*offset.T, geometry.leaf_size[:, 0])
+    rows["axis"] = _columns(*geometry.leaf_axis.T, geometry.leaf_size[:, 1])
+    rows["normal"] = _columns(*geometry.leaf_normal.T, geometry.leaf_openness)
+    rows["outward"] = _columns(*geometry.leaf_outward.T, chance)
+    rows["rows"] = _columns(geometry.leaf_link, geometry.leaf_stem, 0, 0)
+    return rows[order.leaf_order]
+
+
+def _looks(looks: list[Look]) -> NDArray[np.void]:
+    rows = np.zeros(layouts.LOOK_LIMIT, layouts.LOOK)
+    for row, look in zip(rows, looks, strict=False):
+        row["bark"] = (*look.bark_colour, look.bark_relief)
+        row["leaf"] = (*look.leaf_colour, LEAF_SHAPES.index(look.leaf_shape))
+        row["back"] = (*look.leaf_back_colour, look.leaf_flutter)
+    return rows
+
+
+def _ball(geometry: Geometry) -> tuple[NDArray[np.float64], float]:
+    points = np.concatenate([geometry.piece_points.reshape(-1, 3), geometry.leaf_position]).astype(np.float64)
+    low, high = points.min(axis=0), points.max(axis=0)
+    return 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))
+
+
+def _columns(*columns: NDArray | float) -> NDArray:
+    """(n, 4) array out of four columns or numbers."""
+    return np.stack(np.broadcast_arrays(*columns), axis=-1)

@@ -1,0 +1,197 @@
+"""Draws posed stems and leaves, into the picture and into the shadow map.
+
+Vertices are pulled: an instance is a batch of items, and the shader finds item and grid point from the vertex
+number. Small meshes instanced one by one would leave most of a card idle.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import wgpu
+from numpy.typing import NDArray
+
+from windswept.geometry.leaves import LeafMesh, leaf_mesh
+from windswept.gpu import layouts
+from windswept.gpu.buffers import UNIFORM, UNIFORM_STRIDE, filled
+from windswept.gpu.draw_list import DrawList, ItemRange
+from windswept.gpu.posing import Posing
+from windswept.gpu.wiring import (
+    DRAWING,
+    DYNAMIC_UNIFORM,
+    READ,
+    bind,
+    buffers_layout,
+    colour_pipeline,
+    shadow_pipeline,
+)
+from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
+from windswept.plants.plant import Ints
+
+STEM_GRIDS = ((12, 20), (5, 9), (3, 5), (2, 3))
+"""Rings along a piece and sides round it, for each bucket."""
+STEM_SHADOW_GRIDS = ((5, 8), (3, 5), (2, 3))
+"""The same for shadows; the finest twigs throw none."""
+STEM_BATCH = 32
+"""BATCH of ``bark.wgsl``."""
+LEAF_STATIONS = (5, 3, 1)
+"""Edge points of each leaf mesh."""
+LEAF_BATCH = 64
+"""BATCH of ``leaves.wgsl``."""
+SHADOW_LEAF_STEP = 2
+"""Of so many leaves one throws a shadow, and one that much larger."""
+
+
+class PlantDrawing:
+    """Pipelines and meshes for stems and leaves.
+
+    Args:
+        device: the card.
+        posing: holds what is drawn.
+        frame_layout: layout of bind group 0.
+        light_layout: layout of bind group 2.
+        colour_format: of the picture.
+        samples: of the picture.
+    """
+
+    def __init__(
+        self,
+        device: Any,
+        posing: Posing,
+        frame_layout: Any,
+        light_layout: Any,
+        colour_format: str,
+        samples: int,
+    ) -> None:
+        self._device = device
+        self._posing = posing
+        self._layout = buffers_layout(device, DRAWING, READ, READ, UNIFORM_BINDING, DYNAMIC_UNIFORM)
+        shadows = [frame_layout, self._layout]
+        colours = [*shadows, light_layout]
+        picture = (colour_format, samples)
+        self._stems = [
+            _Mesh(
+                device,
+                grid_triangles(rings, sides),
+                (rings + 1) * (sides + 1),
+                STEM_BATCH,
+                colour_pipeline(
+                    device, colours, "bark", *picture, {"RINGS": rings, "SIDES": sides}, cull="back"
+                ),
+            )
+            for rings, sides in STEM_GRIDS
+        ]
+        self._stem_shadows = [
+            _Mesh(
+                device,
+                grid_triangles(rings, sides),
+                (rings + 1) * (sides + 1),
+                STEM_BATCH,
+                shadow_pipeline(device, shadows, "bark", {"RINGS": rings, "SIDES": sides}),
+            )
+            for rings, sides in STEM_SHADOW_GRIDS
+        ]
+        meshes = [leaf_mesh(stations) for stations in LEAF_STATIONS]
+        self._blades = [filled(device, _blade_rows(mesh)) for mesh in meshes]
+        self._leaves, self._leaf_shadows = [], []
+        for mesh in meshes:
+            count = mesh.vertices.shape[1]
+            shape = (device, mesh.triangles, count, LEAF_BATCH)
+            constants = {"VERTICES": count}
+            self._leaves.append(_Mesh(*shape, colour_pipeline(device, colours, "leaves", *picture, constants)))
+            self._leaf_shadows.append(_Mesh(*shape, shadow_pipeline(device, shadows, "leaves", constants)))
+        self._batches = device.create_buffer(
+            size=UNIFORM_STRIDE * 2 * (len(STEM_GRIDS) + len(LEAF_STATIONS)), usage=UNIFORM
+        )
+
+    def upload(self, wanted: DrawList) -> None:
+        """Send which items each draw takes: stems, leaves, then the shadows of both."""
+        batches = [_seen(bucket) for bucket in wanted.pieces] + [_seen(mesh) for mesh in wanted.leaves]
+        batches += [_casting(bucket, 1) for bucket in wanted.pieces]
+        batches += [_casting(mesh, SHADOW_LEAF_STEP) for mesh in wanted.leaves]
+        rows = np.zeros((len(batches), UNIFORM_STRIDE), np.uint8)
+        for row, (first, count, step) in zip(rows, batches, strict=True):
+            batch = np.zeros(1, layouts.BATCH)
+            batch["items"] = first, count, step, 0
+            batch["scale"] = np.sqrt(step), 0.0, 0.0, 0.0
+            row[: layouts.BATCH.itemsize] = batch.view(np.uint8)
+        self._device.queue.write_buffer(self._batches, 0, rows)
+
+    def draw(self, render_pass: Any, wanted: DrawList) -> None:
+        """Record the draws into the picture; bind groups 0 and 2 are set."""
+        stem_group, leaf_groups = self._groups()
+        for slot, (mesh, bucket) in enumerate(zip(self._stems, wanted.pieces, strict=True)):
+            mesh.draw(render_pass, stem_group, slot, _seen(bucket)[1])
+        slots = range(len(STEM_GRIDS), len(STEM_GRIDS) + len(LEAF_STATIONS))
+        for slot, mesh, group, leaves in zip(slots, self._leaves, leaf_groups, wanted.leaves, strict=True):
+            mesh.draw(render_pass, group, slot, _seen(leaves)[1])
+
+    def draw_shadows(self, render_pass: Any, wanted: DrawList) -> None:
+        """Record the draws into the shadow map; bind group 0 is set."""
+        stem_group, leaf_groups = self._groups()
+        first = len(STEM_GRIDS) + len(LEAF_STATIONS)
+        for slot, (mesh, bucket) in enumerate(zip(self._stem_shadows, wanted.pieces, strict=False)):
+            mesh.draw(render_pass, stem_group, first + slot, _casting(bucket, 1)[1])
+        first += len(STEM_GRIDS)
+        casting = zip(self._leaf_shadows, leaf_groups, wanted.leaves, strict=True)
+        for slot, (mesh, group, leaves) in enumerate(casting):
+            mesh.draw(render_pass, group, first + slot, _casting(leaves, SHADOW_LEAF_STEP)[1])
+
+    def _groups(self) -> tuple[Any, list[Any]]:
+        """Bind group 1 for stems, and for the leaves of each mesh; posed buffers may have grown."""
+        posing = self._posing
+        batch = {"buffer": self._batches, "offset": 0, "size": layouts.BATCH.itemsize}
+        stems = bind(
+            self._device, self._layout, posing.stems, posing.posed_pieces.buffer, posing.looks, batch
+        )
+        leaves = [
+            bind(self._device, self._layout, blade, posing.posed_leaves.buffer, posing.looks, batch)
+            for blade in self._blades
+        ]
+        return stems, leaves
+
+
+class _Mesh:
+    """Indices of one batch of equal meshes, and the pipeline they are drawn with."""
+
+    def __init__(self, device: Any, triangles: Ints, vertices: int, batch: int, pipeline: Any) -> None:
+        repeated = triangles.reshape(1, -1) + vertices * np.arange(batch)[:, None]
+        self._indices = filled(device, repeated.astype(np.uint32).ravel(), wgpu.BufferUsage.INDEX)
+        self._index_count = triangles.size
+        self._batch = batch
+        self._pipeline = pipeline
+
+    def draw(self, render_pass: Any, group: Any, slot: int, items: int) -> None:
+        """Record the draw of this many items out of a batch slot."""
+        if items == 0:
+            return
+        render_pass.set_pipeline(self._pipeline)
+        render_pass.set_index_buffer(self._indices, "uint32")
+        render_pass.set_bind_group(1, group, [slot * UNIFORM_STRIDE])
+        render_pass.draw_indexed(self._index_count * min(self._batch, items), -(-items // self._batch))
+
+
+def grid_triangles(rings: int, sides: int) -> Ints:
+    """(2 rings sides, 3) triangles of a grid of (rings+1) by (sides+1) vertices, facing outwards."""
+    row = sides + 1
+    corner = (np.arange(rings)[:, None] * row + np.arange(sides)).ravel()
+    lower = np.stack([corner, corner + 1, corner + row], axis=1)
+    upper = np.stack([corner + 1, corner + row + 1, corner + row], axis=1)
+    return np.concatenate([lower, upper]).astype(np.int32)
+
+
+def _blade_rows(mesh: LeafMesh) -> NDArray[np.float32]:
+    """(2 shapes V, 4) position and normal of every vertex, shape by shape."""
+    both = np.stack([mesh.vertices, mesh.normals], axis=2).reshape(-1, 3)
+    return np.pad(both, [(0, 0), (0, 1)])
+
+
+def _seen(items: ItemRange) -> tuple[int, int, int]:
+    """First item, count and step of what is in sight."""
+    return items.first + items.hidden, items.total - items.hidden, 1
+
+
+def _casting(items: ItemRange, step: int) -> tuple[int, int, int]:
+    """First item, count and step of what throws a shadow."""
+    return items.first, items.casters // step, step

@@ -1,0 +1,186 @@
+"""Frame -> picture: poses plants on the card, then draws shadows, plants, grass, ground and sky."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import wgpu
+from numpy.typing import NDArray
+
+from windswept.geometry.detail import SOFTWARE_RULES, DetailRules
+from windswept.geometry.geometry import Geometry
+from windswept.gpu import layouts
+from windswept.gpu.backdrop import Backdrop
+from windswept.gpu.buffers import UNIFORM
+from windswept.gpu.daylight import EXTINCTION, daylight
+from windswept.gpu.device import is_software, shared_device
+from windswept.gpu.draw_list import DrawList, View, draw_list
+from windswept.gpu.frame import FLAT_GROUND, Frame, Ground
+from windswept.gpu.lighting import SHADOW_TEXELS, Lighting
+from windswept.gpu.matrices import camera_matrix, frustum_planes, shadow_ball, sun_matrix
+from windswept.gpu.plant_buffers import plant_arrays
+from windswept.gpu.plant_drawing import PlantDrawing
+from windswept.gpu.posing import Posing
+from windswept.gpu.wiring import ALL_STAGES, DEPTH_FORMAT, bind, buffers_layout
+from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
+from windswept.plants.plant import Plant
+
+SAMPLES = 4
+"""Of a pixel (MSAA)."""
+SHADOW_REACH = 55.0
+"""Distance from the camera to which shadows are drawn, m."""
+PICTURE_FORMAT = "rgba8unorm-srgb"
+
+
+class Renderer:
+    """Everything that stays the same from frame to frame.
+
+    Args:
+        plants: one of each kind.
+        geometries: the drawn form of each.
+        ground: terrain heights.
+        size: width and height of the picture, pixels.
+        rules: what may be spent; by default what suits the device.
+        colour_format: of the views that ``draw_into`` gets.
+
+    Raises:
+        GraphicsError: there is no graphics adapter.
+    """
+
+    def __init__(
+        self,
+        plants: list[Plant],
+        geometries: list[Geometry],
+        ground: Ground = FLAT_GROUND,
+        size: tuple[int, int] = (1280, 720),
+        rules: DetailRules | None = None,
+        colour_format: str = PICTURE_FORMAT,
+    ) -> None:
+        self._device = shared_device()
+        self._rules = rules or (SOFTWARE_RULES if is_software(self._device) else DetailRules())
+        self._ground = ground
+        arrays = plant_arrays(
+            geometries, [plant.link_base for plant in plants], [plant.look for plant in plants]
+        )
+        self.kinds = arrays.kinds
+        self._frame_layout = buffers_layout(self._device, ALL_STAGES, UNIFORM_BINDING)
+        self._uniforms = self._device.create_buffer(size=layouts.FRAME.itemsize, usage=UNIFORM)
+        self._frame_group = bind(self._device, self._frame_layout, self._uniforms)
+        self._lighting = Lighting(self._device)
+        self.posing = Posing(self._device, self._frame_layout, arrays)
+        shared = (self._frame_layout, self._lighting.layout, colour_format, SAMPLES)
+        self._plant_drawing = PlantDrawing(self._device, self.posing, *shared)
+        self._backdrop = Backdrop(self._device, ground, *shared)
+        self._colour_format = colour_format
+        self.resize(size)
+
+    def resize(self, size: tuple[int, int]) -> None:
+        """Draw pictures of another width and height, pixels, from now on."""
+        self.size = size
+        width, height = size
+
+        def attachment(texture_format: str, samples: int, usage: int = 0) -> Any:
+            return self._device.create_texture(
+                size=(width, height, 1),
+                format=texture_format,
+                sample_count=samples,
+                usage=wgpu.TextureUsage.RENDER_ATTACHMENT | usage,
+            )
+
+        self._colour = attachment(self._colour_format, SAMPLES).create_view()
+        self._depth = attachment(DEPTH_FORMAT, SAMPLES).create_view()
+        self._picture = attachment(self._colour_format, 1, wgpu.TextureUsage.COPY_SRC)
+
+    def draw(self, frame: Frame) -> NDArray[np.uint8]:
+        """(height, width, 4) sRGB picture with alpha 255."""
+        self.draw_into(self._picture.create_view(), frame)
+        width, height = self.size
+        data = self._device.queue.read_texture(
+            {"texture": self._picture},
+            {"bytes_per_row": 4 * width, "rows_per_image": height},
+            (width, height, 1),
+        )
+        return np.frombuffer(data, np.uint8).reshape(height, width, 4)
+
+    def draw_into(self, view: Any, frame: Frame) -> DrawList:
+        """Draw a frame into a texture view of this renderer's size and format.
+
+        Returns:
+            What was drawn: the counts that a window shows.
+        """
+        scene_view, uniforms = self._look(frame)
+        wanted = draw_list(self.kinds, frame.plants, scene_view, self._rules)
+        self._device.queue.write_buffer(self._uniforms, 0, uniforms)
+        shifts = sum(
+            len(posed.position) * kind.stem_count
+            for posed, kind in zip(frame.plants, self.kinds, strict=True)
+        )
+        self.posing.upload(frame.plants, shifts, wanted)
+        self._plant_drawing.upload(wanted)
+        encoder = self._device.create_command_encoder()
+        self.posing.encode(encoder, self._frame_group, wanted)
+        self._encode_shadows(encoder, wanted)
+        self._encode_picture(encoder, view, wanted)
+        self._device.queue.submit([encoder.finish()])
+        return wanted
+
+    def _encode_shadows(self, encoder: Any, wanted: DrawList) -> None:
+        render_pass = encoder.begin_render_pass(
+            color_attachments=[],
+            depth_stencil_attachment={
+                "view": self._lighting.shadow_view,
+                "depth_clear_value": 1.0,
+                "depth_load_op": "clear",
+                "depth_store_op": "store",
+            },
+        )
+        render_pass.set_bind_group(0, self._frame_group)
+        self._plant_drawing.draw_shadows(render_pass, wanted)
+        render_pass.end()
+
+    def _encode_picture(self, encoder: Any, view: Any, wanted: DrawList) -> None:
+        render_pass = encoder.begin_render_pass(
+            color_attachments=[
+                {
+                    "view": self._colour,
+                    "resolve_target": view,
+                    "clear_value": (0.0, 0.0, 0.0, 1.0),
+                    "load_op": "clear",
+                    "store_op": "discard",
+                }
+            ],
+            depth_stencil_attachment={
+                "view": self._depth,
+                "depth_clear_value": 0.0,
+                "depth_load_op": "clear",
+                "depth_store_op": "discard",
+            },
+        )
+        render_pass.set_bind_group(0, self._frame_group)
+        render_pass.set_bind_group(2, self._lighting.group)
+        self._plant_drawing.draw(render_pass, wanted)
+        self._backdrop.draw_near(render_pass)
+        self._backdrop.draw_far(render_pass)
+        render_pass.end()
+
+    def _look(self, frame: Frame) -> tuple[View, NDArray[np.void]]:
+        """What can be seen, and the uniforms that say so to the shaders."""
+        width, height = self.size
+        sun = np.asarray(frame.sun, np.float64)
+        sun = sun / np.linalg.norm(sun)
+        camera = camera_matrix(frame.camera, width / height)
+        centre, radius = shadow_ball(frame.camera, width / height, SHADOW_REACH)
+        light = daylight(sun)
+        rows = np.zeros(1, layouts.FRAME)
+        rows["view_projection"] = camera.T
+        rows["clip_to_world"] = np.linalg.inv(camera).T
+        rows["sun_projection"] = sun_matrix(sun, centre, radius, 6.0 * radius, SHADOW_TEXELS).T
+        rows["eye"] = *frame.camera.eye, frame.time
+        rows["sun"] = *sun, 2.0 * radius / SHADOW_TEXELS
+        rows["sun_light"] = *light.sun, 0.0
+        rows["sky_light"] = *light.sky, 0.0
+        rows["haze"] = *light.haze, EXTINCTION
+        rows["wind"] = *frame.wind, frame.wind[0] * frame.time, frame.wind[1] * frame.time
+        rows["terrain"] = *self._ground.origin, self._ground.spacing, 0.0
+        return View(frame.camera, height, frustum_planes(camera), sun, centre, radius), rows

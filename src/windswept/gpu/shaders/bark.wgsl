@@ -1,0 +1,159 @@
+// Stems: Skjermo's generalized de Casteljau surface in closed form; geometry/bark.py is the same in NumPy.
+// Set: types + light + bark. An instance is a batch of BATCH pieces, each a grid of RINGS by SIDES faces.
+
+override RINGS: u32 = 4u;
+override SIDES: u32 = 8u;
+const BATCH = 32u;
+const TAU = 6.283185307;
+
+@group(1) @binding(0) var<storage, read> stems: array<Stem>;
+@group(1) @binding(1) var<storage, read> posed_pieces: array<PosedPiece>;
+@group(1) @binding(2) var<uniform> looks: array<Look, 64>;
+@group(1) @binding(3) var<uniform> batch: Batch;
+
+struct Surface {
+    position: vec3f,
+    normal: vec3f,
+}
+
+struct Bark {
+    @builtin(position) clip: vec4f,
+    @location(0) world: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) grain: vec2f,   // turns round the stem in texture widths, metres along it
+    @location(3) shade: vec3f,   // openness, height above the stem's foot in m, a random number
+    @location(4) @interpolate(flat) look: u32,
+}
+
+// Weber and Penn's taper with its rounded and beaded ends, m; see plants/radius.py.
+fn taper_radius(stem: Stem, z: f32) -> f32 {
+    let taper = stem.profile.y;
+    let unit = select(max(2.0 - taper, 0.0), taper, taper < 1.0);
+    let plain = stem.profile.x * (1.0 - unit * z);
+    if taper < 1.0 { return plain; }
+    let to_tip = (1.0 - z) * stem.extent.w;
+    let rounded = taper < 2.0;
+    let bead = 2.0 * max(plain, 1e-9);
+    let along = select(abs(to_tip - bead * floor(to_tip / bead + 0.5)), to_tip, rounded);
+    if rounded && along >= plain { return plain; }
+    let depth = select(taper - 2.0, 1.0, rounded || to_tip < plain);
+    let bulge = sqrt(max(plain * plain - (along - plain) * (along - plain), 0.0));
+    return (1.0 - depth) * plain + depth * bulge;
+}
+
+fn flare_factor(flare: f32, z: f32) -> f32 {
+    return 1.0 + flare * (pow(100.0, max(0.0, 1.0 - 8.0 * z)) - 1.0) / 100.0;
+}
+
+// Radius without lobes at a share of the stem's length, m.
+fn profile(stem: Stem, span: f32) -> f32 {
+    let z = mix(stem.extent.y, stem.extent.z, span);
+    return taper_radius(stem, z) * flare_factor(stem.profile.z, z);
+}
+
+fn surface(piece: PosedPiece, stem: Stem, t: f32, angle: f32) -> Surface {
+    let s = 1.0 - t;
+    let curve = s * s * s * piece.p0.xyz + 3.0 * s * s * t * piece.p1.xyz + 3.0 * s * t * t * piece.p2.xyz
+        + t * t * t * piece.p3.xyz;
+    let legs = mat3x3f(piece.p1.xyz - piece.p0.xyz, piece.p2.xyz - piece.p1.xyz, piece.p3.xyz - piece.p2.xyz);
+    let sides = mat3x3f(piece.side0.xyz, piece.side1.xyz, piece.side2.xyz);
+    let tops = mat3x3f(
+        cross(sides[0], normalize(legs[0])),
+        cross(sides[1], normalize(legs[1])),
+        cross(sides[2], normalize(legs[2])),
+    );
+    let weights = vec3f(s * s, 2.0 * s * t, t * t);
+    let slopes = vec3f(-2.0 * s, 2.0 - 4.0 * t, 2.0 * t);
+    let round = vec2f(sin(angle), cos(angle));
+    let out = round.x * (sides * weights) + round.y * (tops * weights);
+    let around = round.y * (sides * weights) - round.x * (tops * weights);
+    let turning = round.x * (sides * slopes) + round.y * (tops * slopes);
+
+    let extent = piece.p1.w - piece.p0.w;
+    let span = mix(piece.p0.w, piece.p1.w, t);
+    let nudge = 0.002;
+    let lobes = stem.profile.w;
+    let lobe = 1.0 + stem.extent.x * sin(lobes * angle);
+    let width = piece.side0.w * lobe;
+    let radius = profile(stem, span) * width;
+    let ahead = min(span + nudge, 1.0);
+    let behind = max(span - nudge, 0.0);
+    let taper = (profile(stem, ahead) - profile(stem, behind)) / (ahead - behind) * extent * width;
+    let swell = radius / lobe * stem.extent.x * lobes * cos(lobes * angle);
+
+    let along = 3.0 * (legs * weights) + radius * turning + taper * out;
+    return Surface(curve + radius * out, normalize(cross(swell * out + max(radius, 1e-5) * around, along)));
+}
+
+struct Place {
+    item: u32,
+    t: f32,
+    turn: f32,
+}
+
+// Which piece of the batch a vertex belongs to and where on its grid it sits.
+fn place(vertex: u32, instance: u32) -> Place {
+    let row = SIDES + 1u;
+    let grid = vertex % ((RINGS + 1u) * row);
+    let item = instance * BATCH + vertex / ((RINGS + 1u) * row);
+    return Place(item, f32(grid / row) / f32(RINGS), f32(grid % row) / f32(SIDES));
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Bark {
+    let at = place(vertex, instance);
+    var out: Bark;
+    if at.item >= batch.items.y { return out; }
+    let piece = posed_pieces[batch.items.x + at.item];
+    let stem = stems[piece.rows.x];
+    let point = surface(piece, stem, at.t, at.turn * TAU);
+    let span = mix(piece.p0.w, piece.p1.w, at.t);
+    let girth = TAU * stem.profile.x;
+    out.clip = frame.view_projection * vec4f(point.position, 1.0);
+    out.world = point.position;
+    out.normal = point.normal;
+    out.grain = vec2f(at.turn * max(1.0, round(girth / 0.45)), span * stem.attach.z / 1.6 + 7.3 * piece.side1.w);
+    out.shade = vec3f(mix(piece.p2.w, piece.p3.w, at.t), span * stem.attach.z, fract(piece.side1.w * 3.7));
+    out.look = piece.rows.y;
+    return out;
+}
+
+@vertex
+fn shadow(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4f {
+    let at = place(vertex, instance);
+    if at.item >= batch.items.y { return vec4f(0.0); }
+    let piece = posed_pieces[batch.items.x + at.item];
+    let point = surface(piece, stems[piece.rows.x], at.t, at.turn * TAU);
+    return frame.sun_projection * vec4f(point.position, 1.0);
+}
+
+// Turn a normal by the slope of a height field known only per pixel (Mikkelsen 2010).
+fn bumped(normal: vec3f, world: vec3f, height: f32) -> vec3f {
+    let x = dpdx(world);
+    let y = dpdy(world);
+    let across = cross(y, normal);
+    let up = cross(normal, x);
+    let scale = dot(x, across);
+    let slope = sign(scale) * (dpdx(height) * across + dpdy(height) * up);
+    return normalize(abs(scale) * normal - slope + 1e-9 * normal);
+}
+
+@fragment
+fn fragment(in: Bark) -> @location(0) vec4f {
+    let look = looks[in.look];
+    let furrow = noise(in.grain).b;
+    let broad = noise(in.grain * vec2f(0.5, 0.23) + 0.37).r;
+    let relief = look.bark.w;
+    let near = clamp(12.0 / distance(in.world, frame.eye.xyz) - 0.3, 0.0, 1.0);
+    let normal = bumped(normalize(in.normal), in.world, near * relief * 0.03 * furrow);
+
+    let crevice = mix(1.0, 0.35 + 0.9 * furrow, 0.35 + 0.65 * relief);
+    var albedo = look.bark.rgb * crevice * (0.75 + 0.5 * broad);
+    let moss = smoothstep(0.52, 0.75, broad + 0.25 * normal.y) * exp(-0.9 * in.world.z) * 0.0;
+    albedo = mix(albedo, vec3f(0.07, 0.10, 0.03), moss);
+
+    let direct = max(dot(normal, frame.sun.xyz), 0.0);
+    var light = ambient(normal) * in.shade.x * (0.6 + 0.4 * furrow);
+    if direct > 0.0 { light += frame.sun_light.rgb * direct * sunlight(in.world, in.normal); }
+    return finished(albedo * light, in.world);
+}

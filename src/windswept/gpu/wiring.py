@@ -1,0 +1,123 @@
+"""Shader modules, bind group layouts and pipelines: small wrappers that name what a wgpu descriptor repeats."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import wgpu
+
+SHADER_SETS = {
+    "curves": ("types", "curves"),
+    "bark": ("types", "light", "bark"),
+    "leaves": ("types", "light", "leaves"),
+    "ground": ("types", "light", "ground"),
+    "grass": ("types", "light", "grass"),
+    "sky": ("types", "light", "sky"),
+}
+"""Files of ``shaders/`` that make up each module, one after the other."""
+
+ALL_STAGES = wgpu.ShaderStage.VERTEX | wgpu.ShaderStage.FRAGMENT | wgpu.ShaderStage.COMPUTE
+COMPUTE = wgpu.ShaderStage.COMPUTE
+DRAWING = wgpu.ShaderStage.VERTEX | wgpu.ShaderStage.FRAGMENT
+DEPTH_FORMAT = "depth32float"
+
+UNIFORM = {"type": "uniform"}
+DYNAMIC_UNIFORM = {"type": "uniform", "has_dynamic_offset": True}
+READ = {"type": "read-only-storage"}
+WRITE = {"type": "storage"}
+
+
+def shader_text(name: str) -> str:
+    """WGSL of one set of ``SHADER_SETS``."""
+    folder = files("windswept.gpu") / "shaders"
+    return "\n".join((folder / f"{part}.wgsl").read_text(encoding="utf-8") for part in SHADER_SETS[name])
+
+
+@cache
+def shader_module(device: Any, name: str) -> Any:
+    """Compiled module of one set of ``SHADER_SETS``."""
+    return device.create_shader_module(label=name, code=shader_text(name))
+
+
+def buffers_layout(device: Any, stages: int, *buffers: dict[str, Any]) -> Any:
+    """Bind group layout of buffers at bindings 0, 1, 2, ..."""
+    entries = [
+        {"binding": place, "visibility": stages, "buffer": buffer} for place, buffer in enumerate(buffers)
+    ]
+    return device.create_bind_group_layout(entries=entries)
+
+
+def bind(device: Any, layout: Any, *resources: Any) -> Any:
+    """Bind group of resources at bindings 0, 1, 2, ...; buffers are bound whole."""
+    entries = []
+    for place, resource in enumerate(resources):
+        if isinstance(resource, wgpu.GPUBuffer):
+            resource = {"buffer": resource, "offset": 0, "size": resource.size}
+        entries.append({"binding": place, "resource": resource})
+    return device.create_bind_group(layout=layout, entries=entries)
+
+
+def compute_pipeline(device: Any, layouts: list[Any], module: str, entry: str) -> Any:
+    """Compute pipeline with the given bind group layouts."""
+    return device.create_compute_pipeline(
+        layout=device.create_pipeline_layout(bind_group_layouts=layouts),
+        compute={"module": shader_module(device, module), "entry_point": entry},
+    )
+
+
+def shadow_pipeline(device: Any, layouts: list[Any], module: str, constants: dict[str, float]) -> Any:
+    """Depth-only pipeline into the shadow map."""
+    return device.create_render_pipeline(
+        layout=device.create_pipeline_layout(bind_group_layouts=layouts),
+        vertex={
+            "module": shader_module(device, module),
+            "entry_point": "shadow",
+            "buffers": [],
+            "constants": constants,
+        },
+        primitive={"topology": "triangle-list", "cull_mode": "none"},
+        depth_stencil={
+            "format": DEPTH_FORMAT,
+            "depth_write_enabled": True,
+            "depth_compare": "less",
+            "depth_bias": 1,
+            "depth_bias_slope_scale": 1.5,
+        },
+    )
+
+
+def colour_pipeline(
+    device: Any,
+    layouts: list[Any],
+    module: str,
+    colour_format: str,
+    samples: int,
+    constants: dict[str, float] | None = None,
+    cull: str = "none",
+    vertex_buffers: list[dict[str, Any]] | None = None,
+) -> Any:
+    """Pipeline into the picture; depth runs from 1 near to 0 at infinity."""
+    shader = shader_module(device, module)
+    return device.create_render_pipeline(
+        layout=device.create_pipeline_layout(bind_group_layouts=layouts),
+        vertex={
+            "module": shader,
+            "entry_point": "vertex",
+            "buffers": vertex_buffers or [],
+            "constants": constants or {},
+        },
+        primitive={"topology": "triangle-list", "cull_mode": cull},
+        depth_stencil={
+            "format": DEPTH_FORMAT,
+            "depth_write_enabled": module != "sky",
+            "depth_compare": "greater-equal",
+        },
+        multisample={"count": samples},
+        fragment={
+            "module": shader,
+            "entry_point": "fragment",
+            "targets": [{"format": colour_format}],
+        },
+    )
