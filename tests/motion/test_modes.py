@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from handmade import build_plant, random_tree, straight
-from mujoco_tree import mujoco_frequencies, mujoco_tree
+from windswept.studies.mujoco_tree import mujoco_frequencies, mujoco_tree
 from windswept.motion.model import build_model
 from windswept.motion.modes import plant_frequencies, stem_frequencies
 from windswept.motion.rods import build_rods

@@ -10,7 +10,7 @@ import pytest
 from scipy.special import ellipeinc, ellipkinc
 
 from handmade import build_plant, random_tree, straight
-from mujoco_tree import mujoco_tree
+from windswept.studies.mujoco_tree import mujoco_tree
 from windswept.motion import Model, Stepper, build_model, pose_links, push, rest_state
 from windswept.motion.model import TIME_STEP
 from windswept.motion.springs_plain import pose_plain, step_plain

@@ -151,9 +151,25 @@ def _lanes_settled(typingctx: Any, value: Any, threshold: Any) -> Any:
     return lanes(lanes, types.float32), codegen
 
 
+@intrinsic
+def _lanes_clamped(typingctx: Any, value: Any, limit: Any) -> Any:
+    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        high = _broadcast(builder, args[1])
+        low = builder.fsub(ir.Constant(_VECTOR, [0.0] * WIDTH), high, flags=_FAST)
+        capped = builder.select(builder.fcmp_ordered("<", args[0], high, flags=_FAST), args[0], high)
+        return builder.select(builder.fcmp_ordered(">", capped, low, flags=_FAST), capped, low)
+
+    return lanes(lanes, types.float32), codegen
+
+
 def sqrt(value: Any) -> Any:
     """Square root of Lanes or of a number."""
     return np.float32(np.sqrt(value))
+
+
+def clamped(value: Any, limit: float) -> Any:
+    """The value, held between -limit and limit."""
+    return min(max(value, -limit), limit)
 
 
 def settled(value: Any, threshold: float) -> Any:
@@ -173,3 +189,10 @@ def _settled(value, threshold):  # type: ignore[no-untyped-def]
     if isinstance(value, LanesType):
         return lambda value, threshold: _lanes_settled(value, threshold)
     return lambda value, threshold: value if abs(value) >= threshold else np.float32(0.0)
+
+
+@overload(clamped, inline="always")
+def _clamped(value, limit):  # type: ignore[no-untyped-def]
+    if isinstance(value, LanesType):
+        return lambda value, limit: _lanes_clamped(value, limit)
+    return lambda value, limit: min(max(value, -limit), limit)

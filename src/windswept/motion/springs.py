@@ -18,7 +18,7 @@ import numpy as np
 from numba import get_num_threads, get_thread_id, njit, prange
 
 from windswept.motion.drag import reconfiguration
-from windswept.motion.lanes import WIDTH, load, settled, sqrt, store
+from windswept.motion.lanes import WIDTH, clamped, load, settled, sqrt, store
 from windswept.motion.model import (
     ATTACH,
     AXIS_1,
@@ -52,7 +52,7 @@ from windswept.motion.state import State
 from windswept.plants.plant import Floats, Ints
 
 MAX_ANGLE = 1.5
-"""A joint's equilibrium angle saturates here, rad; below 0.3 rad the law is linear to 1 in 1,000."""
+"""No joint is pulled further than this, rad: wood that is bent so far at one joint has long left the linear law."""
 REST_THRESHOLD = 1e-9
 """Angles (rad) and velocities (rad/s) below this are put to rest: dying motion must not end in denormals."""
 
@@ -65,7 +65,7 @@ _SLOT = np.uintp(12 * WIDTH)
 _SUM = np.uintp(6 * WIDTH)
 """Scratch of a depth: summed force and moment of the links hanging there."""
 _THRESHOLD: Any = _F(REST_THRESHOLD)
-_INVERSE_MAX_ANGLE = _F(1.0 / MAX_ANGLE)
+_LIMIT: Any = _F(MAX_ANGLE)
 _TINY = _F(1e-30)
 
 
@@ -115,11 +115,8 @@ def drag_force(c, link, wind, v, d):  # type: ignore[no-untyped-def]
 
 @njit(fastmath=True, forceinline=True)
 def oscillate(c, link, torque, angle, velocity, compliance):  # type: ignore[no-untyped-def]
-    """The exact step of one spring towards compliance x torque, saturated at MAX_ANGLE."""
-    free = torque * compliance
-    z = free * _INVERSE_MAX_ANGLE
-    z = z * z
-    target = free / sqrt(sqrt(z * z + _F(1.0)))
+    """The exact step of one spring towards compliance x torque, at most MAX_ANGLE."""
+    target = clamped(torque * compliance, _LIMIT)
     y = angle - target
     moved = target + y * c[link, STEP_XX] + velocity * c[link, STEP_XV]
     swung = y * c[link, STEP_VX] + velocity * c[link, STEP_VV]
@@ -216,15 +213,15 @@ def _load_and_swing(c, depth, probe, joints, a, sums):  # type: ignore[no-untype
 
 
 @njit(fastmath=True, parallel=True, cache=True)
-def _step_tiles(c, depth, probe, joints, wind, scratch, sum_start, substeps):  # type: ignore[no-untyped-def]
-    """``substeps`` inner steps of every tile; the wind goes linearly from wind[t, 0] to wind[t, 1]."""
+def _step_tiles(c, depth, probe, joints, wind, scratch, sum_start, first, last, interval):  # type: ignore[no-untyped-def]
+    """Inner steps first..last of an interval over which the wind goes linearly from wind[t, 0] to wind[t, 1]."""
     slots = np.uintp(len(depth) + 1) * _RECORD
     sums = np.uintp(sum_start)
     for tile in prange(joints.shape[0]):
         a = scratch[get_thread_id()]
         now = a[a.size - wind.shape[2] :]
-        for step in range(substeps):
-            late = _F((step + 1.0) / substeps)
+        for step in range(first, last):
+            late = _F((step + 1.0) / interval)
             now[:] = wind[tile, 0] + late * (wind[tile, 1] - wind[tile, 0])
             _pose_and_drag(c, depth, probe, joints[tile], now, a, slots)
             _load_and_swing(c, depth, probe, joints[tile], a, sums)
@@ -250,27 +247,40 @@ class Stepper:
         )
         self._scratch, self._sum_start = _scratch(model)
 
-    def step(self, state: State, wind_before: Floats, wind_after: Floats, substeps: int = 1) -> State:
-        """Advances a state by ``substeps`` inner steps.
+    def step(
+        self,
+        state: State,
+        wind_before: Floats,
+        wind_after: Floats,
+        substeps: int = 1,
+        taken: int = 0,
+        interval: int | None = None,
+    ) -> State:
+        """Advances a state by ``substeps`` inner steps, each ``model.time_step`` long.
+
+        The winds are those at the two ends of an interval of ``interval`` inner steps, of which ``taken`` were
+        stepped before; in between the wind changes linearly.
 
         Args:
             state: stepped in place and returned.
-            wind_before: (P, B, 3) air velocity at the probes in the plant's frame when the steps begin, m/s.
-            wind_after: the same when they end.
-            substeps: number of inner steps, each ``model.time_step`` long.
-
+            wind_before: (P, B, 3) air velocity at the probes in the plant's frame, m/s.
+            wind_after: the same at the interval's end.
+            substeps: number of inner steps to take now.
+            taken: number of the interval's steps taken earlier.
+            interval: number of inner steps between the two winds; None for ``substeps``.
         """
         wind = np.stack([pack_wind(self.model, wind_before), pack_wind(self.model, wind_after)], axis=1)
-        tiles = state.joints.reshape(len(state.joints), -1)
         _step_tiles(
             self.model.constants,
             self.model.skeleton.depth,
             self._probe_and_parent,
-            tiles,
+            state.joints.reshape(len(state.joints), -1),
             wind,
             self._scratch,
             self._sum_start,
-            substeps,
+            taken,
+            taken + substeps,
+            float(interval or substeps),
         )
         state.step_count += substeps
         return state

@@ -82,7 +82,6 @@ def step_plain(
         if parent >= 0:
             force[parent] += model.propagation[link] * force[link]
             moment[parent] += model.propagation[link] * moment[link]
-    free = model.rods.compliance * torque
-    target = free / (1.0 + (free / MAX_ANGLE) ** 4) ** 0.25
+    target = np.clip(model.rods.compliance * torque, -MAX_ANGLE, MAX_ANGLE)
     y = angles - target
     return target + xx * y + xv * velocities, vx * y + vv * velocities

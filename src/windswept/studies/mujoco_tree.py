@@ -9,10 +9,17 @@ from windswept.motion.model import Model
 
 
 def mujoco_tree(model: Model, time_step: float | None = None) -> mujoco.MjModel:
+    """MuJoCo's model of a plant; sites ``tip<link>`` and ``centre<link>`` mark link ends and drag centres.
+
+    Args:
+        model: the plant's constants.
+        time_step: s; None for the model's own.
+    """
     skeleton, rods = model.skeleton, model.rods
-    zeta = 0.0
+    stiffness = 1.0 / rods.compliance
+    damping = 2.0 * stiffness * (model.damping_ratio / model.stem_frequency)[skeleton.stem][:, None]
     children: list[list[int]] = [[] for _ in range(model.link_count)]
-    roots = []
+    roots: list[int] = []
     for link, parent in enumerate(skeleton.parent):
         (roots if parent < 0 else children[parent]).append(link)
 
@@ -30,7 +37,7 @@ def mujoco_tree(model: Model, time_step: float | None = None) -> mujoco.MjModel:
         full = numbers(tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]])
         hinges = "".join(
             f'<joint type="hinge" axis="{numbers(skeleton.axes[link, k])}" '
-            f'stiffness="{1.0 / rods.compliance[link, k]:.9g}" damping="{zeta}"/>'
+            f'stiffness="{stiffness[link, k]:.9g}" damping="{damping[link, k]:.9g}"/>'
             for k in range(2)
         )
         inner = "".join(body(child) for child in children[link])

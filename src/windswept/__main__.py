@@ -1,0 +1,5 @@
+"""``python -m windswept``."""
+
+from windswept.cli import main
+
+main()

@@ -1,0 +1,76 @@
+"""Speed of `springs`: nanoseconds per link and step, against MuJoCo on the same tree and the machine's bandwidth."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from windswept.motion import Model, Stepper, build_model, rest_state
+from windswept.motion.lanes import WIDTH
+from windswept.motion.model import CONSTANT_COUNT
+from windswept.studies.bench_plants import plant_with_links
+from windswept.studies.machine import median_seconds, triad_bandwidth
+
+SIZES = ((1_000, 128), (5_000, 128), (77_000, 1))
+"""Links and placements."""
+SUBSTEPS = 4
+"""Inner steps to one sample of the wind, as in a simulation."""
+MUJOCO_LIMIT = 10_000
+"""MuJoCo is not asked for trees with more links: its model alone would take minutes to build."""
+
+
+def bench_springs(say: Callable[[str], None] = lambda line: None) -> dict[str, float]:
+    """Figures ``springs.<links>x<placements>.*``.
+
+    ``times_mujoco`` is MuJoCo's time (Euler integrator, contacts off, the same rods) over ours per link and step.
+    ``times_triad_time`` is our time over the time in which the machine's triad moves ``bytes_per_link_step``.
+    """
+    bandwidth = triad_bandwidth()
+    figures = {"triad.gb_per_s": bandwidth / 1e9}
+    for links, placements in SIZES:
+        say(f"springs, {links} links x {placements}")
+        model = build_model(plant_with_links(links))
+        name = f"springs.{links}x{placements}"
+        seconds = seconds_per_step(model, placements) / (links * placements)
+        moved = bytes_per_link_step(placements)
+        figures[f"{name}.ns_per_link_step"] = seconds * 1e9
+        figures[f"{name}.bytes_per_link_step"] = moved
+        figures[f"{name}.times_triad_time"] = seconds * bandwidth / moved
+        if links <= MUJOCO_LIMIT:
+            theirs = mujoco_seconds_per_step(model) / links
+            figures[f"{name}.mujoco_ns_per_link_step"] = theirs * 1e9
+            figures[f"{name}.times_mujoco"] = theirs / seconds
+    return figures
+
+
+def seconds_per_step(model: Model, placements: int) -> float:
+    """Median wall time of one inner step of all placements in turbulent wind, s."""
+    stepper, state = Stepper(model), rest_state(model, placements)
+    rng = np.random.default_rng(0)
+    shape = (placements, len(model.probe_position), 3)
+    wind = rng.normal((6.0, 0.0, 0.0), 2.0, shape).astype(np.float32)
+    return median_seconds(lambda: stepper.step(state, wind, wind, SUBSTEPS)) / SUBSTEPS
+
+
+def bytes_per_link_step(placements: int) -> float:
+    """Bytes that the kernel reads and writes for one link of one placement in one step.
+
+    Joints (4 numbers, read by both walks, written by one), the link's record (13, written and read), and its
+    constants and indices, read by both walks and shared by the placements of a tile. A tile always moves whole.
+    """
+    used = min(placements, WIDTH)
+    per_lane = 4 * (4 * 3 + 13 * 2)
+    shared = 2 * (4 * CONSTANT_COUNT + 12)
+    return per_lane * WIDTH / used + shared / used
+
+
+def mujoco_seconds_per_step(model: Model) -> float:
+    """Median wall time of MuJoCo's step of one such tree, s."""
+    import mujoco
+
+    from windswept.studies.mujoco_tree import mujoco_tree
+
+    tree = mujoco_tree(model)
+    data = mujoco.MjData(tree)
+    return median_seconds(lambda: mujoco.mj_step(tree, data), repeats=30, warm_up=5)
