@@ -9,7 +9,7 @@ import tomllib
 from pathlib import Path
 from typing import Any, get_args, get_origin
 
-from annotated_types import Ge, Gt, Le
+from annotated_types import Ge, Le
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
@@ -21,6 +21,9 @@ __all__ = ["LARGEST_FILE", "Species", "load_species", "species_names"]
 
 LARGEST_FILE = 1 << 20
 """A species file is a page of text; anything above this many bytes is not one."""
+
+LONGEST_VALUE = 60
+"""Longer values are shortened in messages, characters."""
 
 _FOLDER = Path(__file__).parent / "species"
 _TABLES: dict[tuple[str, ...], type[BaseModel]] = {
@@ -46,33 +49,35 @@ def load_species(source: str | Path) -> Species:
     Raises:
         InputError: there is no such species or the file holds none; says where and what was expected.
     """
-    path = _find(source)
-    data = _parse(str(source), _read_text(str(source), path))
+    path, shown = _find(source), " ".join(str(source).splitlines())
+    data = _parse(shown, _read_text(shown, path))
     try:
         species = Species.model_validate(data)
     except ValidationError as error:
-        raise _input_error(str(source), error) from None
-    _check_lengths(str(source), species.growth)
+        raise _input_error(shown, error) from None
+    _check_lengths(shown, species.growth)
     return species
 
 
 def _find(source: str | Path) -> Path:
     """Path of the file that a name or path means."""
     names = species_names()
-    if isinstance(source, Path) or source.endswith(".toml") or "/" in source or "\\" in source:
+    if isinstance(source, Path) or source.lower().endswith(".toml") or "/" in source or "\\" in source:
         return Path(source)
     if source in names:
         return _FOLDER / f"{source}.toml"
     hint = _hint(source, names) or f"; there are {', '.join(names)}"
-    raise InputError(source or "species", "", None, f"a built-in species or the path of a .toml file{hint}")
+    raise InputError(
+        _one_line(source) or "species", "", None, f"a built-in species or the path of a .toml file{hint}"
+    )
 
 
 def _read_text(source: str, path: Path) -> str:
     """Text of a file that is small enough and UTF-8."""
     try:
-        if path.is_dir():
-            raise InputError(source, "", None, "a .toml file, not a directory")
-        if path.is_file() and path.stat().st_size > LARGEST_FILE:
+        if path.exists() and not path.is_file():
+            raise InputError(source, "", None, "a .toml file, not a directory or a device")
+        if path.stat().st_size > LARGEST_FILE:
             raise InputError(source, "", None, f"a species file of at most {LARGEST_FILE:,} bytes")
         return path.read_bytes().decode("utf-8")
     except FileNotFoundError:
@@ -111,8 +116,7 @@ def _input_error(source: str, error: ValidationError) -> InputError:
     faults = error.errors(include_url=False)
     fault = min(faults, key=lambda item: item["type"] != "extra_forbidden")
     place = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in fault["loc"])
-    is_missing = fault["type"] == "missing"
-    value = None if is_missing else _Shown(fault["input"])
+    value = None if fault["type"] == "missing" else _shown(fault["input"])
     return InputError(source, _one_line(place.lstrip(".")), value, _expectation(fault))
 
 
@@ -133,19 +137,8 @@ def _expectation(fault: ErrorDetails) -> str:
 def _field_expectation(field: FieldInfo) -> str:
     """A field's type and range in words."""
     kind: Any = field.annotation
-    low = next(
-        (
-            item.ge if isinstance(item, Ge) else item.gt
-            for item in field.metadata
-            if isinstance(item, Ge | Gt)
-        ),
-        None,
-    )
-    high = next((item.le for item in field.metadata if isinstance(item, Le)), None)
     if kind in (int, float):
-        noun = "a whole number" if kind is int else "a number"
-        above = "above" if any(isinstance(item, Gt) for item in field.metadata) else "from"
-        return f"{noun} {above} {low:g} to {high:g}"
+        return _range("a whole number" if kind is int else "a number", field.metadata)
     if get_origin(kind) is tuple:
         return "three numbers from 0 to 1"
     if get_origin(kind) is list:
@@ -158,7 +151,19 @@ def _field_expectation(field: FieldInfo) -> str:
     return "a table"
 
 
-class _Shown:
+def _range(noun: str, bounds: list[Any]) -> str:
+    """A range in words."""
+    low = next(f"from {bound.ge:g}" if isinstance(bound, Ge) else f"above {bound.gt:g}" for bound in bounds)
+    high = next(bound.le for bound in bounds if isinstance(bound, Le))
+    return f"{noun} {low} to {high:g}"
+
+
+def _shown(value: object) -> object:
+    """The value itself where it prints as a short line, else something that does."""
+    return value if len(repr(value)) <= LONGEST_VALUE else _Shortened(value)
+
+
+class _Shortened:
     """A value whose repr is one short line."""
 
     def __init__(self, value: object) -> None:

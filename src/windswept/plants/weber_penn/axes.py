@@ -28,7 +28,7 @@ _UP = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True, slots=True)
 class Axes:
-    """Centre lines of S stems of one order, with R segments each; F of them are not clones."""
+    """Centre lines of S stems of one order in T segments, stem after stem, base to tip; F are not clones."""
 
     family: Indices
     """(S,) which shoot the stem grew from; clones belong to the shoot of the stem they continue."""
@@ -36,12 +36,16 @@ class Axes:
     """(S,) stem that a clone continues, -1 for stems that are not clones."""
     start: Indices
     """(S,) first segment the stem has of its own: 0 but for clones."""
-    point: Reals
-    """(S, R+1, 3) segment ends from the shoot's base, in segments; zero before the start."""
-    frame: Reals
-    """(S, R, 3, 3) frame of every segment."""
-    density: Reals
-    """(S, R) child stems per segment against an unsplit stem."""
+    segment_stem: Indices
+    """(T,)"""
+    segment_index: Indices
+    """(T,) 0..nCurveRes-1."""
+    segment_base: Reals
+    """(T, 3) from the shoot's base, in segments."""
+    segment_frame: Reals
+    """(T, 3, 3) z is the segment's direction."""
+    segment_density: Reals
+    """(T,) child stems per segment against an unsplit stem."""
 
 
 def grow_axes(tree: Tree, order: int, frame: Reals, links_so_far: int) -> Axes:
@@ -105,7 +109,11 @@ class _Front:
         self._tip = self._tip + frame[:, frames.Z]
 
     def split(self, segment: int) -> None:
-        """Let the stems whose turn it is fork; a clone is a stem of its own."""
+        """Let the stems whose turn it is fork; a clone is a stem of its own.
+
+        The next curve already takes back a share of the tilt, so the fork is opened by as much more: its first
+        segments stand at the tilt, whatever remains.
+        """
         clone_count = self._clone_count(segment)
         if not clone_count.any():
             return
@@ -115,10 +123,11 @@ class _Front:
         forked = clone_count > 0
         tilt = np.where(forked, self._tilt("split angle", self._frame), 0.0)
         clone_tilt = self._tilt("clone split angle", self._frame[mother])
-        clone = frames.turn_about_x(self._frame[mother], clone_tilt)
+        clone = frames.turn_about_x(self._frame[mother], clone_tilt * (1.0 + 1.0 / remaining))
         clone = frames.turn_about_axis(clone, _UP, self._spread(segment, clone_count, mother))
+        forked_frame = frames.turn_about_x(self._frame, tilt * (1.0 + 1.0 / remaining))
         density = self._density / (clone_count + 1)
-        self._frame = np.concatenate((frames.turn_about_x(self._frame, tilt), clone))
+        self._frame = np.concatenate((forked_frame, clone))
         self._tip = np.concatenate((self._tip, self._tip[mother]))
         self._density = np.concatenate((density, density[mother]))
         correction = np.concatenate((self._correction, self._correction[mother]))
@@ -165,17 +174,20 @@ class _Front:
 
     def axes(self) -> Axes:
         """The finished centre lines."""
-        stems, segments = len(self._frame), self._level.curve_res
-        point, frame = np.zeros((stems, segments + 1, 3)), np.zeros((stems, segments, 3, 3))
-        density = np.zeros((stems, segments))
-        for segment, (base, turned, share) in enumerate(self._records):
-            point[: len(base), segment] = base
-            frame[: len(base), segment] = turned
-            density[: len(base), segment] = share
-        clones = np.flatnonzero(self._mother >= 0)
-        point[clones, self._start[clones]] = point[self._mother[clones], self._start[clones]]
-        point[:, segments] = self._tip
-        return Axes(self._family, self._mother, self._start, point, frame, density)
+        base, frame, density = (np.concatenate(column) for column in zip(*self._records, strict=True))
+        counts = [len(record[2]) for record in self._records]
+        stem = np.concatenate([np.arange(count) for count in counts])
+        stem_after_stem = np.argsort(stem, kind="stable")
+        return Axes(
+            family=self._family,
+            mother=self._mother,
+            start=self._start,
+            segment_stem=stem[stem_after_stem],
+            segment_index=np.repeat(np.arange(len(counts)), counts)[stem_after_stem],
+            segment_base=base[stem_after_stem],
+            segment_frame=frame[stem_after_stem],
+            segment_density=density[stem_after_stem],
+        )
 
 
 def _generators(streams: Streams, order: int) -> dict[str, np.random.Generator]:

@@ -59,8 +59,9 @@ class Seats:
 
 
 def trunk_shoot(tree: Tree) -> Shoots:
-    """The one shoot from which the trunk grows, turned by chance about the vertical."""
+    """The one shoot from which the trunk grows, turned by chance about the vertical; BudgetError as in `sprout`."""
     level = tree.growth.at(0)
+    check_links(tree, level.curve_res * tree.links_per_segment(0), 0, tree.key(0, "curve_res"))
     heading = tree.streams.vary("trunk heading", 0, np.pi, 1)
     lean = np.radians(level.down_angle + tree.streams.vary("down angle", 0, abs(level.down_angle_v), 1))
     frame = frames.turn_about_x(frames.turn_about_z(frames.upright(1), heading), lean)
@@ -134,8 +135,8 @@ def take_seats(tree: Tree, wood: Wood, expected: Reals) -> Seats:
         expected: (L,) mean number on each link.
     """
     running = np.cumsum(expected)
-    total = int(running[-1] + 0.5)
-    wanted = np.minimum(np.arange(total) + 0.5, running[-1])
+    last = float(running[-1]) if len(running) else 0.0
+    wanted = np.minimum(np.arange(int(last + 0.5)) + 0.5, last)
     link = np.searchsorted(running, wanted)
     share = 1.0 - (running[link] - wanted) / np.maximum(expected[link], 1e-300)
     z_base, z_tip = wood.link_z_base[link], wood.link_z_tip[link]

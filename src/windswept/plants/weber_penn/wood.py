@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windswept.plants.radius import flare_factor, taper_radius
-from windswept.plants.weber_penn import frames
 from windswept.plants.weber_penn.axes import Axes
+from windswept.plants.weber_penn.divide import divided
 from windswept.plants.weber_penn.formulas import child_radius
 from windswept.plants.weber_penn.pruning import fit_lengths
 from windswept.plants.weber_penn.shoots import Shoots
@@ -68,99 +68,67 @@ def make_wood(tree: Tree, order: int, shoots: Shoots, axes: Axes, first_stem: in
         first_stem: number of stems of the orders before.
         first_link: number of links of the orders before.
     """
-    per_segment = tree.links_per_segment(order)
-    point, frame = _links_of_segments(axes, per_segment)
+    lines = divided(axes, tree.links_per_segment(order), tree.growth.at(order).curve_res)
     length = shoots.length
     if order > 0:
-        length = fit_lengths(tree, shoots.base, length, axes.family, point, axes.start * per_segment)
-    kept = (length >= SHORTEST_SEGMENT * tree.growth.at(order).curve_res)[axes.family]
-    family, start = axes.family[kept], axes.start[kept] * per_segment
-    mother = np.where(axes.mother < 0, -1, (np.cumsum(kept) - 1)[axes.mother])[kept]
-    point, frame = point[kept], frame[kept]
-    stem_length, link_count = length[family], frame.shape[1]
-    own = np.arange(link_count) >= start[:, None]
-    number = np.full(own.shape, -1)
-    number[own] = first_link + np.arange(np.count_nonzero(own))
-    parent, attach = _link_parents(number, start, mother, shoots.parent_link[family], shoots.attach[family])
-    place = shoots.base[family][:, None, :] + stem_length[:, None, None] * point
+        link_family = axes.family[lines.stem]
+        length = fit_lengths(tree, shoots.base, length, link_family, lines.z_tip, lines.tip)
+    grows = (length >= SHORTEST_SEGMENT * tree.growth.at(order).curve_res)[axes.family]
+    lines = lines.of_stems(grows)
+    family = axes.family[grows]
+    mother = np.where(axes.mother < 0, -1, (np.cumsum(grows) - 1)[axes.mother])[grows]
+    stem_length = length[family]
     ratio = stem_length / shoots.parent_length[family]
     radius = _base_radius(tree, order, shoots, family, ratio, stem_length)
-    z = np.arange(link_count + 1) / link_count
-    end_radius = _end_radius(tree, order, radius, z, stem_length)
-    stem, link = np.nonzero(own)
+    link_count = np.bincount(lines.stem, minlength=len(family))
+    parent, attach = _link_parents(shoots, family, mother, link_count, first_link)
+    link_length, base = stem_length[lines.stem], shoots.base[family[lines.stem]]
     return Wood(
         order=order,
         first_stem=first_stem,
         first_link=first_link,
         stem_parent=np.where(mother < 0, shoots.parent_stem[family], first_stem + mother),
         stem_length=stem_length,
-        stem_start=start / link_count,
+        stem_start=axes.start[grows] / tree.growth.at(order).curve_res,
         stem_radius=radius,
         stem_offset_ratio=shoots.offset_ratio[family],
         stem_length_ratio=ratio,
-        stem_link_count=link_count - start,
-        link_parent=parent[own],
-        link_attach=attach[own],
-        link_stem=stem,
-        link_base=place[:, :-1][own],
-        link_tip=place[:, 1:][own],
-        link_frame=frame[own],
-        link_density=np.repeat(axes.density[kept], per_segment, axis=1)[own],
-        link_z_base=z[link] * stem_length[stem],
-        link_z_tip=z[link + 1] * stem_length[stem],
-        link_radius_base=end_radius[:, :-1][own],
-        link_radius_tip=end_radius[:, 1:][own],
+        stem_link_count=link_count,
+        link_parent=parent,
+        link_attach=attach,
+        link_stem=lines.stem,
+        link_base=base + link_length[:, None] * lines.base,
+        link_tip=base + link_length[:, None] * lines.tip,
+        link_frame=lines.frame,
+        link_density=lines.density,
+        link_z_base=lines.z_base * link_length,
+        link_z_tip=lines.z_tip * link_length,
+        link_radius_base=_radius_at(tree, order, radius[lines.stem], lines.z_base, link_length),
+        link_radius_tip=_radius_at(tree, order, radius[lines.stem], lines.z_tip, link_length),
     )
-
-
-def _links_of_segments(axes: Axes, per_segment: int) -> tuple[Reals, Reals]:
-    """Link ends (S, K+1, 3) for a length of 1, and frames (S, K, 3, 3), with ``per_segment`` links a segment.
-
-    The links' ends lie on the Catmull-Rom curve through the segments' ends.
-    """
-    stems, segments = axes.frame.shape[:2]
-    if per_segment == 1:
-        return axes.point / segments, axes.frame
-    chord = axes.frame[:, :, frames.Z]
-    tangent = np.zeros_like(axes.point)
-    tangent[:, 1:-1] = 0.5 * (chord[:, 1:] + chord[:, :-1])
-    tangent[:, -1] = chord[:, -1]
-    stem = np.arange(stems)
-    tangent[stem, axes.start] = chord[stem, axes.start]
-    u = (np.arange(per_segment) / per_segment)[:, None]
-    inner = (
-        axes.point[:, :-1, None] * (1 + u * u * (2 * u - 3))
-        + axes.point[:, 1:, None] * (u * u * (3 - 2 * u))
-        + tangent[:, :-1, None] * (u * (1 - u) ** 2)
-        + tangent[:, 1:, None] * (u * u * (u - 1))
-    )
-    point = np.concatenate((inner.reshape(stems, -1, 3), axes.point[:, -1:]), axis=1)
-    along = np.diff(point, axis=1)
-    along /= np.maximum(np.linalg.norm(along, axis=2, keepdims=True), 1e-12)
-    frame = np.repeat(axes.frame, per_segment, axis=1)
-    turned = frames.turn_to(frame.reshape(-1, 3, 3), along.reshape(-1, 3)).reshape(frame.shape)
-    return point / segments, turned
 
 
 def _link_parents(
-    number: Indices, start: Indices, mother: Indices, seat: Indices, attach: Reals
+    shoots: Shoots, family: Indices, mother: Indices, link_count: Indices, first_link: int
 ) -> tuple[Indices, Reals]:
-    """(S, K) parent link and place on it, for every link.
+    """(L,) parent link, and place on it, of every link.
 
     Args:
-        number: (S, K) number of every link.
-        start: (S,) first link of each stem.
+        shoots: where the stems stand.
+        family: (S,) shoot of each stem.
         mother: (S,) stem that a clone continues, else -1.
-        seat: (S,) link that the stem's shoot stands on.
-        attach: (S,) where on it.
+        link_count: (S,) links of each stem; all stems of an order end together, so a clone's own links
+            are as many as the last ones of its mother.
+        first_link: number of links of the orders before.
     """
-    parent, place = np.full(number.shape, -1), np.ones(number.shape)
-    parent[:, 1:] = number[:, :-1]
-    stem, clone = np.arange(len(start)), np.flatnonzero(mother >= 0)
-    parent[stem, start], place[stem, start] = seat, attach
-    parent[clone, start[clone]] = number[mother[clone], start[clone] - 1]
-    place[clone, start[clone]] = 1.0
-    return parent, place
+    end = np.cumsum(link_count)
+    parent = first_link + np.arange(end[-1] if len(end) else 0) - 1
+    attach = np.ones(len(parent))
+    first = end - link_count
+    continued = first_link + end[mother] - link_count - 1
+    parent[first] = np.where(mother < 0, shoots.parent_link[family], continued)
+    attach[first] = np.where(mother < 0, shoots.attach[family], 1.0)
+    return parent, attach
 
 
 def _base_radius(
@@ -175,9 +143,17 @@ def _base_radius(
     return np.clip(radius, THINNEST, np.maximum(shoots.radius_limit[family], THINNEST))
 
 
-def _end_radius(tree: Tree, order: int, radius: Reals, z: Reals, length: Reals) -> Reals:
-    """(S, K+1) radius at every link end, m."""
-    thickness = taper_radius(radius[:, None], tree.growth.at(order).taper, z, length[:, None])
+def _radius_at(tree: Tree, order: int, radius: Reals, z: Reals, length: Reals) -> Reals:
+    """(L,) radius at link ends, m.
+
+    Args:
+        tree: what is grown.
+        order: branching order.
+        radius: (L,) base radius of the link's stem, m.
+        z: (L,) fraction of the stem's full length.
+        length: (L,) full length of the stem, m.
+    """
+    thickness = taper_radius(radius, tree.growth.at(order).taper, z, length)
     if order == 0:
         thickness = thickness * flare_factor(tree.growth.flare, z)
     return np.maximum(thickness, THINNEST)
