@@ -1,0 +1,228 @@
+"""The scene form: what a scene file may say. docs/scene-file.md is made from it.
+
+A scene file is TOML; units are in the keys' names, angles in degrees. Nothing in a file is ever executed.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Coordinate = Annotated[float, Field(ge=-10_000, le=10_000)]
+Point = Annotated[tuple[Coordinate, Coordinate], Field(strict=False)]
+Place = Annotated[tuple[Coordinate, Coordinate, Coordinate], Field(strict=False)]
+Box = Annotated[tuple[Coordinate, Coordinate, Coordinate, Coordinate], Field(strict=False)]
+Angle = Annotated[float, Field(ge=-360, le=360)]
+Time = Annotated[float, Field(ge=-3600, le=86_400)]
+Length = Annotated[float, Field(ge=0, le=10_000)]
+Speed = Annotated[float, Field(gt=0, le=100)]
+Source = Annotated[str, Field(min_length=1, max_length=1000)]
+Seed = Annotated[int, Field(ge=0, le=2**31 - 1)]
+
+
+class Form(BaseModel):
+    """A table of a scene file: no unknown keys, no guessed types, no NaN, no infinity."""
+
+    model_config = ConfigDict(
+        extra="forbid", strict=True, frozen=True, allow_inf_nan=False, use_attribute_docstrings=True
+    )
+
+
+class GroundForm(Form):
+    """The ground: a square centred on the origin."""
+
+    kind: Literal["flat", "hills"] = "flat"
+    """Level, or gentle hills."""
+    size_m: Annotated[float, Field(ge=10, le=4000)] = 200.0
+    """Edge of the square; every plant stands on it."""
+    relief_m: Annotated[float, Field(ge=0, le=200)] = 3.0
+    """Hills: from the lowest to the highest point."""
+    hill_length_m: Annotated[float, Field(ge=5, le=2000)] = 80.0
+    """Hills: from one hill to the next."""
+
+
+class GustForm(Form):
+    """A front of faster air that travels over the ground."""
+
+    start_s: Time
+    """When the front passes `position`."""
+    strength_m_s: Annotated[float, Field(ge=0, le=60)]
+    """Speed it adds at a height of 10 m."""
+    position: Point = (0.0, 0.0)
+    """Where the front is at the start, x and y in m."""
+    direction_degrees: Angle | None = None
+    """Where it travels and pushes to, counter-clockwise from +x; left out: as the mean wind."""
+    speed_m_s: Annotated[float, Field(gt=0, le=1e6)] = 12.0
+    """How fast the front travels."""
+    rise_m: Length = 15.0
+    """From the front to full strength; 0 for a sudden front."""
+    hold_m: Length = 20.0
+    """At full strength."""
+    decay_m: Length = 30.0
+    """From full strength to nothing."""
+    width_m: Annotated[float, Field(gt=0, le=10_000)] | None = None
+    """From the middle to either side, where it has faded to nothing; left out: endless."""
+
+
+class WaveForm(Form):
+    """A train of sine waves of air speed (Skjermo 2007), on top of mean wind and turbulence."""
+
+    wavelength_m: Annotated[float, Field(gt=0, le=10_000)]
+    """From crest to crest."""
+    speed_m_s: Speed
+    """How fast the crests travel."""
+    amplitude_m_s: Annotated[float, Field(ge=0, le=60)]
+    """Half of the range from trough to crest, at a height of 10 m."""
+    direction_degrees: Angle | None = None
+    """Where the crests travel to, counter-clockwise from +x; left out: as the mean wind."""
+    push_degrees: Angle | None = None
+    """Where the crests push to; left out: where they travel to."""
+    power: Annotated[float, Field(ge=1, le=16)] = 1.0
+    """Sharpens the crests and flattens the troughs."""
+    phase_degrees: Angle = 0.0
+    """Phase at the origin at time 0."""
+    start_s: Time | None = None
+    """When the waves begin to fade in; left out: they always blew."""
+    end_s: Time | None = None
+    """When they have faded out; left out: never."""
+    fade_s: Annotated[float, Field(ge=0, le=3600)] = 2.0
+    """How long fading in and out takes."""
+    form: Literal["corrected", "as_printed"] = "corrected"
+    """`as_printed` is the paper's own formula: it runs upwind and takes whole powers only."""
+
+
+class WindForm(Form):
+    """The wind: mean, turbulence, gusts and waves add up."""
+
+    speed_m_s: Annotated[float, Field(ge=0, le=60)] = 4.0
+    """Mean speed at a height of 10 m."""
+    direction_degrees: Angle = 0.0
+    """Where the air goes to, counter-clockwise from +x (east)."""
+    roughness_m: Annotated[float, Field(ge=0.0001, le=2)] = 0.1
+    """Roughness length of the ground: 0.01 short grass, 0.1 fields and hedges, 1 forest."""
+    displacement_m: Annotated[float, Field(ge=0, le=9)] = 0.0
+    """Height by which a closed canopy lifts the wind, 0.7 of its own."""
+    turbulence: Annotated[float, Field(ge=0, le=1)] = 0.25
+    """Standard deviation of the speed over the mean speed: 0.1 over water, 0.25 over fields, 0.5 at a canopy."""
+    gust: Annotated[list[GustForm], Field(max_length=64)] = []
+    """`[[wind.gust]]`, any number."""
+    waves: Annotated[list[WaveForm], Field(max_length=64)] = []
+    """`[[wind.waves]]`, any number."""
+
+
+class PlantForm(Form):
+    """One plant in its own place."""
+
+    source: Source
+    """Name of a built-in species, or path of a species file relative to the scene file."""
+    position: Point
+    """x and y of the root, m."""
+    seed: Seed = 0
+    """Seed of growth."""
+    yaw_degrees: Angle = 0.0
+    """Turn about the vertical, counter-clockwise."""
+
+
+class StandSourceForm(Form):
+    """One species of a stand."""
+
+    source: Source
+    """Name of a built-in species, or path of a species file relative to the scene file."""
+    weight: Annotated[float, Field(gt=0, le=1e6)] = 1.0
+    """Share of the stand's plants, relative to the other sources' weights."""
+    spacing_m: Annotated[float, Field(ge=0.05, le=1000)] = 3.0
+    """Least distance between two of this species; between two species the mean of both."""
+    depth_bias: Annotated[float, Field(ge=-1, le=1)] = 0.0
+    """-1 crowds at the edge of the area (shrubs), 0 is even, 1 crowds deep inside (tall trees)."""
+
+
+class AreaForm(Form):
+    """Where a stand grows; exactly one of the keys."""
+
+    rectangle: Box | None = None
+    """West, south, east, north, m."""
+    ellipse: Box | None = None
+    """Centre x and y, radius along x and along y, m."""
+    polygon: Annotated[list[Point], Field(min_length=3, max_length=1000)] | None = None
+    """Corners in order, each x and y in m."""
+
+
+class StandForm(Form):
+    """Plants scattered over an area, none too close to another or to a plant placed before."""
+
+    count: Annotated[int, Field(ge=1, le=10_000_000)]
+    """Number of plants."""
+    area: AreaForm
+    """`[stand.area]`"""
+    source: Annotated[list[StandSourceForm], Field(min_length=1, max_length=64)]
+    """`[[stand.source]]`, one or more."""
+    individuals: Annotated[int, Field(ge=1, le=100)] = 3
+    """How many different plants are grown of each species and shared by its placements."""
+    deeper_degrees: Angle | None = None
+    """Direction that leads deeper into the stand, for `depth_bias`; left out: inwards from every side."""
+
+
+class KeyForm(Form):
+    """Where the camera is at one time; between keys it moves smoothly."""
+
+    time_s: Time
+    """Later than the key before."""
+    eye: Place
+    """x, y and height above the ground there, m."""
+    target: Place
+    """The middle of the picture: x, y and height above the ground there, m."""
+    fov_degrees: Annotated[float, Field(ge=1, le=170)] | None = None
+    """Vertical field of view; left out: that of the camera."""
+
+
+class CameraForm(Form):
+    """The camera: `eye` and `target` for one that stands, or keys for one that moves."""
+
+    eye: Place | None = None
+    """x, y and height above the ground there, m."""
+    target: Place | None = None
+    """The middle of the picture: x, y and height above the ground there, m."""
+    fov_degrees: Annotated[float, Field(ge=1, le=170)] = 40.0
+    """Vertical field of view."""
+    key: Annotated[list[KeyForm], Field(max_length=1000)] = []
+    """`[[camera.key]]`, instead of `eye` and `target`."""
+
+
+class SunForm(Form):
+    """Where the sun stands."""
+
+    azimuth_degrees: Angle = 225.0
+    """Counter-clockwise from +x (east): 90 is north, 270 south."""
+    elevation_degrees: Annotated[float, Field(ge=-5, le=90)] = 35.0
+    """Above the horizon."""
+
+
+class TimeForm(Form):
+    """How long and how often."""
+
+    duration_s: Annotated[float, Field(gt=0, le=3600)] = 10.0
+    """Length of the film."""
+    fps: Annotated[float, Field(ge=1, le=240)] = 25.0
+    """Pictures a second."""
+
+
+class SceneForm(Form):
+    """The file itself."""
+
+    seed: Seed = 0
+    """Everything random in the scene follows from it."""
+    ground: GroundForm = GroundForm()
+    """`[ground]`"""
+    wind: WindForm = WindForm()
+    """`[wind]`"""
+    plant: Annotated[list[PlantForm], Field(max_length=100_000)] = []
+    """`[[plant]]`, any number; there is at least one plant or stand."""
+    stand: Annotated[list[StandForm], Field(max_length=1000)] = []
+    """`[[stand]]`, any number."""
+    camera: CameraForm
+    """`[camera]`"""
+    sun: SunForm = SunForm()
+    """`[sun]`"""
+    time: TimeForm = TimeForm()
+    """`[time]`"""

@@ -1,0 +1,76 @@
+"""load_scene: from a scene file, a species file or a species name to a Scene."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+from windswept.errors import InputError
+from windswept.plants.species import species_names
+from windswept.scene.build_camera import build_camera
+from windswept.scene.build_wind import build_wind
+from windswept.scene.form import GroundForm, SceneForm
+from windswept.scene.lone_plant import lone_plant
+from windswept.scene.place_plants import named_stream, place_plants
+from windswept.scene.plant_sources import is_path
+from windswept.scene.read_form import check_form, read_toml
+from windswept.scene.scene import Scene, sun_towards
+from windswept.scene.terrain import Terrain, flat_terrain, hilly_terrain
+from windswept.scene.words import nearest
+
+
+def load_scene(source: str | Path, seed: int | None = None) -> Scene:
+    """Read a scene; a species alone is a lone plant on flat ground.
+
+    Args:
+        source: path of a scene file or of a species file, or name of a built-in species.
+        seed: replaces the scene file's seed, or is that of the lone plant; None keeps the file's, or 0.
+
+    Raises:
+        InputError: what is wrong, with file and dotted key.
+        BudgetError: the scene holds more plants than its budget.
+    """
+    name = str(source)
+    if isinstance(source, str) and not is_path(source):
+        if source not in species_names():
+            expected = f"a scene file or a built-in species: {nearest(source, species_names())}"
+            raise InputError(source or "scene", "", None, expected)
+        return lone_plant(name, seed or 0)
+    data = read_toml(Path(source))
+    if "growth" in data:
+        return lone_plant(name, seed or 0)
+    return build_scene(name, data, seed)
+
+
+def build_scene(source: str, data: dict[str, Any], seed: int | None = None) -> Scene:
+    """The scene that the tables of a scene file say.
+
+    Args:
+        source: the scene file, for error messages and for paths relative to it.
+        data: its tables.
+        seed: replaces the file's.
+    """
+    form = check_form(source, SceneForm, data if seed is None else data | {"seed": seed})
+    terrain = build_terrain(form.ground, form.seed)
+    kinds, placements = place_plants(source, form, terrain)
+    return Scene(
+        seed=form.seed,
+        terrain=terrain,
+        wind=build_wind(source, form.wind, form.seed),
+        kinds=kinds,
+        placements=placements,
+        camera=build_camera(source, form.camera, terrain),
+        sun_direction=sun_towards(
+            math.radians(form.sun.azimuth_degrees), math.radians(form.sun.elevation_degrees)
+        ),
+        duration=form.time.duration_s,
+        frames_per_second=form.time.fps,
+    )
+
+
+def build_terrain(form: GroundForm, seed: int) -> Terrain:
+    """The ground of a scene."""
+    if form.kind == "flat":
+        return flat_terrain(form.size_m)
+    return hilly_terrain(form.size_m, form.relief_m, form.hill_length_m, named_stream(seed, "ground"))

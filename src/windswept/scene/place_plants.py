@@ -1,0 +1,139 @@
+"""From the plant and stand tables of a scene file to kinds and placements."""
+
+from __future__ import annotations
+
+import math
+from zlib import crc32
+
+import numpy as np
+
+from windswept.errors import BudgetError, InputError
+from windswept.scene.area import Area, ellipse, rectangle
+from windswept.scene.form import AreaForm, PlantForm, SceneForm, StandForm
+from windswept.scene.plant_sources import Nursery, find_species
+from windswept.scene.scatter import Ground, Sort, scatter, share_out
+from windswept.scene.scene import Placements, PlantKind
+from windswept.scene.terrain import Terrain
+
+PLACEMENT_BUDGET = 50_000
+"""Most plants that one scene file may place; larger landscapes are baked tile by tile."""
+
+
+def place_plants(
+    source: str, form: SceneForm, terrain: Terrain
+) -> tuple[tuple[PlantKind, ...], tuple[Placements, ...]]:
+    """Every plant of a scene in its place; stands keep clear of what was placed before them.
+
+    Args:
+        source: the scene file, for error messages.
+        form: what it says.
+        terrain: the ground.
+
+    Raises:
+        InputError: unknown species, a place off the ground, or a stand in which not all plants fit.
+        BudgetError: more plants than PLACEMENT_BUDGET.
+    """
+    _check_budget(source, form)
+    nursery = Nursery()
+    ground = Ground(cell=max([1.0, *(sort.spacing_m for stand in form.stand for sort in stand.source)]))
+    for i, plant in enumerate(form.plant):
+        _place_one(source, f"plant[{i}]", plant, terrain, ground, nursery)
+    for i, stand in enumerate(form.stand):
+        rng = named_stream(form.seed, "stand", i)
+        _place_stand(source, f"stand[{i}]", stand, form.seed, terrain, ground, nursery, rng)
+    return tuple(nursery.places), tuple(_placements(nursery, kind, terrain) for kind in nursery.places)
+
+
+def named_stream(seed: int, name: str, index: int = 0) -> np.random.Generator:
+    """Random numbers of one part of a scene, independent of every other part."""
+    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(crc32(name.encode()), index)))
+
+
+def _check_budget(source: str, form: SceneForm) -> None:
+    """There is something to place and not too much of it."""
+    counts = [stand.count for stand in form.stand]
+    total = len(form.plant) + sum(counts)
+    if total == 0:
+        raise InputError(source, "", None, "at least one [[plant]] or [[stand]]")
+    if total > PLACEMENT_BUDGET:
+        largest = f"stand[{int(np.argmax(counts))}].count" if counts else "the number of [[plant]] tables"
+        raise BudgetError(f"{source}: {total:,} plants, at most {PLACEMENT_BUDGET:,}: lower {largest}")
+
+
+def _place_one(
+    source: str, place: str, form: PlantForm, terrain: Terrain, ground: Ground, nursery: Nursery
+) -> None:
+    """One [[plant]]."""
+    x, y = form.position
+    _check_on_ground(source, f"{place}.position", list(form.position), terrain)
+    kind = PlantKind(find_species(source, f"{place}.source", form.source), form.seed)
+    ground.take(x, y, 0.0)
+    nursery.add(kind, x, y, math.radians(form.yaw_degrees))
+
+
+def _place_stand(
+    source: str,
+    place: str,
+    form: StandForm,
+    seed: int,
+    terrain: Terrain,
+    ground: Ground,
+    nursery: Nursery,
+    rng: np.random.Generator,
+) -> None:
+    """One [[stand]]: its plants shared out by weight, scattered, and given to a few individuals."""
+    names = [find_species(source, f"{place}.source[{i}].source", s.source) for i, s in enumerate(form.source)]
+    area = build_area(source, f"{place}.area", form.area, terrain)
+    counts = share_out(form.count, [sort.weight for sort in form.source])
+    sorts = [Sort(n, s.spacing_m, s.depth_bias) for n, s in zip(counts, form.source, strict=True)]
+    into = None if form.deeper_degrees is None else math.radians(form.deeper_degrees)
+    found = scatter(area, sorts, ground, rng, into)
+    fitted = sum(map(len, found))
+    if fitted < form.count:
+        expected = f"at most {fitted}, as no more fit: lower it or spacing_m, or enlarge the area"
+        raise InputError(source, f"{place}.count", form.count, expected)
+    for name, places in zip(names, found, strict=True):
+        nursery.add_shared([PlantKind(name, seed + i) for i in range(form.individuals)], places, rng)
+
+
+def build_area(source: str, place: str, form: AreaForm, terrain: Terrain) -> Area:
+    """The area of a stand.
+
+    Raises:
+        InputError: not exactly one shape, a shape without an inside, or one that leaves the ground.
+    """
+    given = [name for name in AreaForm.model_fields if getattr(form, name) is not None]
+    if len(given) != 1:
+        raise InputError(source, place, given, f"exactly one of {', '.join(AreaForm.model_fields)}")
+    key, value = f"{place}.{given[0]}", getattr(form, given[0])
+    if form.rectangle is not None:
+        west, south, east, north = form.rectangle
+        if not (east > west and north > south):
+            raise InputError(source, key, list(value), "west below east and south below north")
+        area = rectangle(west, south, east, north)
+    elif form.ellipse is not None:
+        if not min(form.ellipse[2:]) > 0.0:
+            raise InputError(source, key, list(value), "radii above 0")
+        area = ellipse(*form.ellipse)
+    else:
+        area = Area(np.array(form.polygon, dtype=np.float64))
+    if not area.greatest_depth > 0.0:
+        raise InputError(source, key, None, "corners around a piece of ground")
+    for corner in area.bounds:
+        _check_on_ground(source, key, corner.tolist(), terrain)
+    return area
+
+
+def _check_on_ground(source: str, place: str, position: list[float], terrain: Terrain) -> None:
+    """A place lies on the terrain."""
+    half = 0.5 * terrain.size
+    if max(map(abs, position)) > half:
+        expected = f"x and y from {-half:g} to {half:g}, on the ground (ground.size_m = {terrain.size:g})"
+        raise InputError(source, place, position, expected)
+
+
+def _placements(nursery: Nursery, kind: PlantKind, terrain: Terrain) -> Placements:
+    """Placements of one kind, on the ground."""
+    x, y = np.array(nursery.places[kind]).T
+    position = np.stack([x, y, terrain.height(x, y)], axis=1).astype(np.float32)
+    return Placements(position=position, yaw=np.array(nursery.yaws[kind], dtype=np.float32))

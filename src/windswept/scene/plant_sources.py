@@ -1,0 +1,65 @@
+"""Which species a scene file's source means, and which individuals of it are grown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windswept.errors import InputError
+from windswept.plants.species import load_species, species_names
+from windswept.scene.scene import PlantKind
+from windswept.scene.words import nearest
+
+Reals = NDArray[np.float64]
+
+
+def is_path(source: str) -> bool:
+    """Whether a source is a file rather than the name of a built-in species."""
+    return "/" in source or "\\" in source or "." in source
+
+
+def find_species(file: str, place: str, source: str) -> str:
+    """A species' name, or the path of its file, that is sure to load.
+
+    Args:
+        file: the scene file.
+        place: dotted key of the source.
+        source: its value; a path is relative to the scene file.
+
+    Raises:
+        InputError: no such species or file, or the file is wrong.
+    """
+    if not is_path(source):
+        if source not in species_names():
+            raise InputError(file, place, source, f"a built-in species: {nearest(source, species_names())}")
+        return source
+    path = Path(file).parent / source
+    if not path.is_file():
+        raise InputError(file, place, source, f"a species file that exists (looked for {path})")
+    load_species(path)
+    return str(path)
+
+
+@dataclass
+class Nursery:
+    """Collects where the plants of every kind stand, in the order in which kinds come up."""
+
+    yaws: dict[PlantKind, list[float]] = field(default_factory=dict)
+    """Radians."""
+    places: dict[PlantKind, list[tuple[float, float]]] = field(default_factory=dict)
+    """x and y, m."""
+
+    def add(self, kind: PlantKind, x: float, y: float, yaw: float) -> None:
+        """Put one plant in its place."""
+        self.places.setdefault(kind, []).append((x, y))
+        self.yaws.setdefault(kind, []).append(yaw)
+
+    def add_shared(self, kinds: list[PlantKind], places: Reals, rng: np.random.Generator) -> None:
+        """Put (n, 2) places under plants that share a few individuals evenly, each turned at random."""
+        which = rng.permutation(len(places)) % len(kinds)
+        yaws = rng.uniform(0.0, 2.0 * np.pi, len(places))
+        for (x, y), individual, yaw in zip(places.tolist(), which, yaws.tolist(), strict=True):
+            self.add(kinds[individual], x, y, yaw)
