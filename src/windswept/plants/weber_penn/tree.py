@@ -14,8 +14,8 @@ SMALLEST_SCALE = 0.25
 """No tree is smaller than this fraction of Scale: the black oak's 10 +- 10 m would reach down to nothing."""
 SHORTEST_SEGMENT = 1e-3
 """Stems with shorter segments than this do not grow, m: float32 could not hold their direction."""
-THINNEST = 2e-4
-"""No wood is thinner than this radius, m."""
+THINNEST = 5e-4
+"""No wood is thinner than this radius, m: RatioPower 2 would spin the willow's twigs into threads."""
 
 
 @dataclass(frozen=True, slots=True)
