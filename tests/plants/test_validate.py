@@ -45,7 +45,7 @@ def test_grown_plant_is_valid(plant):
         ("link_radius_tip", 7, -1, "link_radius_tip"),
         ("link_parent", 0, 1, "trunk has a parent"),
         ("leaf_link", 0, -1, "leaf_link is not a link"),
-        ("leaf_link", 0, 2000, "does not ascend"),
+        ("leaf_link", 0, 1000, "does not ascend"),
         ("leaf_axis", 4, 0.9, "leaf_axis"),
         ("leaf_normal", 4, 0.9, "leaf_normal"),
         ("leaf_position", 4, 9.0, "leaf_position"),

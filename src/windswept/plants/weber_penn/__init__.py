@@ -2,12 +2,13 @@
 
 All stems of one branching order are grown together, segment by segment::
 
-    Shoots  where stems will stand      shoots.py    counts, offsets, down angles, lengths
+    Shoots  where stems will stand      sprout.py    counts, offsets, down angles, lengths
       | grow_axes
-    Axes    unit-length centre lines    axes.py      curving, attraction up, helices, splitting
+    Axes    centre lines, in segments   axes.py      curving, attraction up, helices, splitting
+      | divided                         divide.py    one segment is one link, or several on a smooth curve
       | fit_lengths                     pruning.py   shortened until they fit the envelope
       | make_wood
-    Wood    links with radii            wood.py      one segment is one link, or several on a smooth curve
+    Wood    links with radii            wood.py      taper, flare, parents
       | sprout -> Shoots of the next order, or grow_leaves on the last (leaves.py)
 
 `grow` in grow.py walks down these steps and puts the result in depth-first order.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,13 +14,14 @@ from windswept.plants.plant import Plant
 from windswept.plants.species import Species, load_species
 from windswept.plants.weber_penn.axes import grow_axes
 from windswept.plants.weber_penn.leaves import Leaves, grow_leaves
-from windswept.plants.weber_penn.shoots import Shoots, sprout, trunk_shoot
+from windswept.plants.weber_penn.sprout import sprout, trunk_shoot
+from windswept.plants.weber_penn.stems import Shoots, Wood
 from windswept.plants.weber_penn.tree import Tree, plant_tree
-from windswept.plants.weber_penn.wood import Wood, make_wood
+from windswept.plants.weber_penn.wood import make_wood
 
 
 def grow(
-    species: Species | str, seed: int = 0, link_budget: int = 300_000, leaf_budget: int = 3_000_000
+    species: Species | str | Path, seed: int = 0, link_budget: int = 300_000, leaf_budget: int = 3_000_000
 ) -> Plant:
     """Grow a tree after Weber and Penn (1995).
 
@@ -33,7 +35,7 @@ def grow(
         InputError: the species or the seed is wrong.
         BudgetError: the plant would be larger than a budget; raised before the memory is taken.
     """
-    form = load_species(species) if isinstance(species, str) else species
+    form = species if isinstance(species, Species) else load_species(species)
     if seed < 0:
         raise InputError("seed", "", seed, "a whole number from 0 up")
     tree = plant_tree(form, seed, link_budget, leaf_budget)

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from windswept.plants.weber_penn import frames
 from windswept.plants.weber_penn.budget import check_leaves
 from windswept.plants.weber_penn.formulas import shape_ratio
-from windswept.plants.weber_penn.shoots import Seats, expected_on_links, leaving_frames, take_seats
+from windswept.plants.weber_penn.sprout import Seats, expected_on_links, leaving_frames, take_seats
+from windswept.plants.weber_penn.stems import Wood
 from windswept.plants.weber_penn.tree import Tree
-from windswept.plants.weber_penn.wood import Wood
 
 Reals = NDArray[np.float64]
 Indices = NDArray[np.int64]

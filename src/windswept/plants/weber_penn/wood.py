@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,49 +10,11 @@ from windswept.plants.weber_penn.axes import Axes
 from windswept.plants.weber_penn.divide import divided
 from windswept.plants.weber_penn.formulas import child_radius
 from windswept.plants.weber_penn.pruning import fit_lengths
-from windswept.plants.weber_penn.shoots import Shoots
+from windswept.plants.weber_penn.stems import Shoots, Wood
 from windswept.plants.weber_penn.tree import SHORTEST_SEGMENT, THINNEST, Tree
 
 Reals = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-
-@dataclass(frozen=True, slots=True)
-class Wood:
-    """The S stems and L links of one order; parents are numbered through all orders, in the order of growth."""
-
-    order: int
-    first_stem: int
-    """Number of this order's first stem among those of all orders."""
-    first_link: int
-    """Number of this order's first link among those of all orders."""
-    stem_parent: Indices
-    stem_length: Reals
-    """(S,) full length, for a clone that of the stem it continues, m."""
-    stem_start: Reals
-    """(S,) Z at which a clone begins, else 0."""
-    stem_radius: Reals
-    """(S,) base radius before flare, m."""
-    stem_offset_ratio: Reals
-    """(S,) where the stem stands along its parent, 0..1; 1 for trunks, which so bear leaves to the full."""
-    stem_length_ratio: Reals
-    """(S,) length over the parent's length."""
-    stem_link_count: Indices
-    link_parent: Indices
-    link_attach: Reals
-    link_stem: Indices
-    """(L,) stem, counted from this order's first."""
-    link_base: Reals
-    link_tip: Reals
-    link_frame: Reals
-    """(L, 3, 3) frame whose z is the link's axis."""
-    link_density: Reals
-    """(L,) child stems per metre against an unsplit stem."""
-    link_z_base: Reals
-    """(L,) distance of the link's base from the stem's base, along the unsplit stem, m."""
-    link_z_tip: Reals
-    link_radius_base: Reals
-    link_radius_tip: Reals
 
 
 def make_wood(tree: Tree, order: int, shoots: Shoots, axes: Axes, first_stem: int, first_link: int) -> Wood:

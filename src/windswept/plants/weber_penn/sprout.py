@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,37 +10,11 @@ from numpy.typing import NDArray
 from windswept.plants.weber_penn import frames
 from windswept.plants.weber_penn.budget import check_links
 from windswept.plants.weber_penn.formulas import child_count, child_length, shape_ratio
+from windswept.plants.weber_penn.stems import Shoots, Wood
 from windswept.plants.weber_penn.tree import SHORTEST_SEGMENT, Tree
-
-if TYPE_CHECKING:
-    from windswept.plants.weber_penn.wood import Wood
 
 Reals = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-
-@dataclass(frozen=True, slots=True)
-class Shoots:
-    """F stems about to grow."""
-
-    parent_stem: Indices
-    parent_link: Indices
-    attach: Reals
-    """(F,) where they stand along the parent link, 0..1."""
-    base: Reals
-    """(F, 3) where they stand, m."""
-    frame: Reals
-    """(F, 3, 3) their first frame."""
-    length: Reals
-    """(F,) length before pruning, m."""
-    offset_ratio: Reals
-    """(F,) where they stand along the parent stem, 0..1."""
-    parent_length: Reals
-    """(F,) m."""
-    parent_radius: Reals
-    """(F,) base radius of the parent stem without 0Scale, m."""
-    radius_limit: Reals
-    """(F,) radius of the parent where they stand, m."""
 
 
 @dataclass(frozen=True, slots=True)
