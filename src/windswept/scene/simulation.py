@@ -120,7 +120,9 @@ def compile_kind(plant: Plant, placements: Placements, terrain: Terrain) -> Movi
     """Model, resting State and probes of all placements of one plant."""
     model = build_model(plant)
     state = rest_state(model, placements.count)
-    return MovingKind(plant, placements, model, state, Stepper(model), place_probes(model, placements, terrain))
+    return MovingKind(
+        plant, placements, model, state, Stepper(model), place_probes(model, placements, terrain)
+    )
 
 
 def place_probes(model: Model, placements: Placements, terrain: Terrain) -> Probes:
