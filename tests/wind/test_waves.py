@@ -134,15 +134,30 @@ def test_plausible_waves_have_the_asked_intensity_along_and_across() -> None:
     assert 0.7 < across_wind.std() / (0.3 * 6.0) < 1.1
 
 
-def test_neighbouring_trees_are_not_in_step() -> None:
-    # PHYSICS D2.13 asks 0.1-0.6 of tip motion; the wind itself must leave room for that at 15 m apart.
-    wind = Wind(waves=WaveSchedule((WaveSet(plausible_waves(6.0, 0.3, seed=2)),)))
-    points = np.array([[0.0, 0.0, 0.0], [0.0, 15.0, 0.0], [15.0, 0.0, 0.0]], np.float32)
+@pytest.mark.parametrize("seed", range(4))
+def test_neighbouring_trees_are_not_in_step(seed: int) -> None:
+    # PHYSICS D2.13 asks 0.1-0.6 of tip motion; the wind of trees 8 m apart must leave room for that.
+    wind = Wind(waves=WaveSchedule((WaveSet(plausible_waves(4.0, 0.3, seed=seed)),)))
+    points = np.array([[0.0, 0.0, 0.0], [0.0, 8.0, 0.0], [8.0, 0.0, 0.0]], np.float32)
     height = np.full(3, 10.0, np.float32)
     series = np.array([velocity_reference(wind, points, height, t)[:, 0] for t in np.arange(0.0, 120.0, 0.1)])
     together = np.corrcoef(series.T)
-    assert together[0, 1] < 0.9
+    assert together[0, 1] < 0.75
     assert together[0, 2] < 0.6
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_plausible_pattern_drifts_with_the_mean_wind(seed: int) -> None:
+    # PHYSICS D2.14: crests travel downwind at U_c +-10 %.
+    wind = Wind(waves=WaveSchedule((WaveSet(plausible_waves(5.0, 0.3, seed=seed, azimuth=0.6)),)))
+    rng = np.random.default_rng(seed)
+    places = rng.uniform(-2000.0, 2000.0, (4000, 3)).astype(np.float32)
+    ahead = places + np.array([10.0 * math.cos(0.6), 10.0 * math.sin(0.6), 0.0], np.float32)
+    height = np.full(4000, 10.0, np.float32)
+    now = velocity_reference(wind, places, height, 0.0)
+    delays = np.arange(1.0, 3.0, 0.02)
+    likeness = [np.sum(now * velocity_reference(wind, ahead, height, d)) for d in delays]
+    assert delays[np.argmax(likeness)] == pytest.approx(10.0 / 5.0, rel=0.1)
 
 
 def test_same_seed_same_waves() -> None:
