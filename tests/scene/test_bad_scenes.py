@@ -128,6 +128,16 @@ def test_crowded_stand_says_how_many_fit_and_that_many_do() -> None:
     build_scene("test.toml", GOOD | {"stand": [STAND | {"count": fit}]})
 
 
+def test_crowded_mixture_counts_what_fits_in_its_ratio() -> None:
+    # Wide oaks fill up first; the hazels between them must not hide that.
+    sources = [{"source": "california_black_oak", "spacing_m": 9.0}, {"source": "hazel", "spacing_m": 0.5}]
+    with pytest.raises(InputError) as caught:
+        build_scene("test.toml", GOOD | {"stand": [STAND | {"count": 60, "source": sources}]})
+    fit = int(caught.value.expected.split()[2].rstrip(","))
+    assert fit < 20
+    build_scene("test.toml", GOOD | {"stand": [STAND | {"count": fit, "source": sources}]})
+
+
 def test_too_many_plants_name_the_count_and_what_to_lower() -> None:
     stands = [STAND, STAND | {"count": 60_000}]
     with pytest.raises(BudgetError, match=r"60,006 plants, at most 50,000: lower stand\[1\].count"):

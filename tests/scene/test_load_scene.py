@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import pdist
 
+from windswept.plants.weber_penn import grow
 from windswept.scene.camera import view_at
 from windswept.scene.form import SceneForm
 from windswept.scene.load_scene import build_scene, load_scene
@@ -168,6 +169,17 @@ def test_a_species_is_a_lone_plant(tmp_path: Path) -> None:
     assert not scene.terrain.heights.any()
     (tmp_path / "own.toml").write_text(built_in("hazel"))
     assert load_scene(tmp_path / "own.toml").kinds[0].source == str(tmp_path / "own.toml")
+
+
+@pytest.mark.parametrize(("species", "seed"), [("hazel", 0), ("california_black_oak", 1)])
+def test_a_lone_plant_fills_the_picture_whatever_its_size(species: str, seed: int) -> None:
+    scene = load_scene(species, seed=seed)
+    tips = grow(species, seed).link_tip
+    view = view_at(scene.camera, 0.0)
+    forward = (view.target - view.eye) / np.linalg.norm(view.target - view.eye)
+    rays = tips - view.eye
+    angle = np.arccos(rays @ forward / np.linalg.norm(rays, axis=1)).max()
+    assert 0.25 * view.fov_y < angle < 0.5 * view.fov_y
 
 
 def built_in(species: str) -> str:

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from windswept.plants.species import load_species
+from windswept.plants.weber_penn import grow
 from windswept.scene.build_camera import frame_plant
 from windswept.scene.build_wind import build_wind
 from windswept.scene.form import GustForm, WindForm
@@ -15,8 +15,6 @@ from windswept.scene.terrain import flat_terrain
 
 GROUND_SIZE = 80.0
 """Edge of the flat ground, m."""
-CROWN_SHARE = 0.4
-"""Crown radius over height, a generous guess before the plant is grown."""
 WIND = WindForm(
     speed_m_s=4.0, turbulence=0.3, gust=[GustForm(start_s=2.5, strength_m_s=6.0, position=(-10.0, 0.0))]
 )
@@ -25,23 +23,26 @@ WIND = WindForm(
 def lone_plant(source: str, seed: int = 0) -> Scene:
     """One plant on flat ground in a light breeze with a gust, and a camera that frames it.
 
+    The plant is grown here to learn its size (0.01 to 0.4 s) and let go.
+
     Args:
         source: name of a built-in species or path of a species file.
         seed: of growth and of the turbulence.
 
     Raises:
         InputError: no such species, or its file is wrong.
+        BudgetError: the plant would be larger than the budget of growth.
     """
-    growth = load_species(source).growth
-    height = growth.scale + 0.5 * growth.scale_v
+    plant = grow(source, seed)
+    radius = float(np.hypot(plant.link_tip[:, 0], plant.link_tip[:, 1]).max())
     placements = Placements(position=np.zeros((1, 3), dtype=np.float32), yaw=np.zeros(1, dtype=np.float32))
     return Scene(
         seed=seed,
-        terrain=flat_terrain(max(GROUND_SIZE, 6.0 * height)),
+        terrain=flat_terrain(max(GROUND_SIZE, 6.0 * plant.height)),
         wind=build_wind(source, WIND, seed),
         kinds=(PlantKind(source, seed),),
         placements=(placements,),
-        camera=frame_plant(height, CROWN_SHARE * height),
+        camera=frame_plant(plant.height, radius),
         sun_direction=sun_towards(math.radians(215.0), math.radians(35.0)),
         duration=10.0,
         frames_per_second=25.0,

@@ -88,12 +88,21 @@ def _place_stand(
     sorts = [Sort(n, s.spacing_m, s.depth_bias) for n, s in zip(counts, form.source, strict=True)]
     into = None if form.deeper_degrees is None else math.radians(form.deeper_degrees)
     found = scatter(area, sorts, ground, rng, into)
-    fitted = sum(map(len, found))
-    if fitted < form.count:
-        expected = f"at most {fitted}, as no more fit: lower it or spacing_m, or enlarge the area"
+    if sum(map(len, found)) < form.count:
+        most = _most_that_fit(form, [len(places) for places in found])
+        expected = f"at most {most}, as no more fit: lower it or spacing_m, or enlarge the area"
         raise InputError(source, f"{place}.count", form.count, expected)
     for name, places in zip(names, found, strict=True):
         nursery.add_shared([PlantKind(name, seed + i) for i in range(form.individuals)], places, rng)
+
+
+def _most_that_fit(form: StandForm, fitted: list[int]) -> int:
+    """Largest count of which no source's share is more than what fitted of it."""
+    weights = [sort.weight for sort in form.source]
+    for count in range(sum(fitted), 0, -1):
+        if all(share <= fit for share, fit in zip(share_out(count, weights), fitted, strict=True)):
+            return count
+    return 0
 
 
 def build_area(source: str, place: str, form: AreaForm, terrain: Terrain) -> Area:
