@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from handmade import random_tree
 
+from handmade import random_tree
 from windswept.plants.plant import Plant
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Placements, PlantKind, Scene

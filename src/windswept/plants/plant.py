@@ -97,9 +97,9 @@ class Plant:
     link_attach: Floats
     """(L,) where the base sits along the parent link: 1 within a stem, 0..1 for a stem's first link."""
     link_radius_base: Floats
-    """(L,) wood radius at the link's base (with flare, without lobes), m."""
+    """(L,) wood radius at the link's base that mechanics reckons with (flare yes, lobes no), m."""
     link_radius_tip: Floats
-    """(L,) wood radius at the link's tip, m."""
+    """(L,) the same at the link's tip, m."""
 
     leaf_link: Ints
     """(N,) link that carries the leaf, ascending."""

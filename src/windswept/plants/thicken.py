@@ -36,9 +36,9 @@ def thicken(plant: Plant) -> Plant:
     needed = _needed_radius(plant.link_parent, force, middle, plant.link_base.astype(np.float64))
     base = np.maximum(plant.link_radius_base, needed)
     tip = np.maximum(plant.link_radius_tip, 0.5 * needed)
-    last = plant.stem_link_start[1:] - 1
-    inner = np.setdiff1d(np.arange(plant.link_count), last)
-    tip[inner] = np.maximum(plant.link_radius_tip[inner], base[inner + 1])
+    # A link is nowhere thinner than what grows out of it.
+    child = np.flatnonzero(plant.link_parent >= 0)
+    np.maximum.at(tip, plant.link_parent[child], base[child])
     return replace(plant, link_radius_base=base.astype(np.float32), link_radius_tip=tip.astype(np.float32))
 
 
@@ -49,12 +49,13 @@ def _needed_radius(
     """(L,) m; the bending moment is the summed drag beyond a link's base times the arm to its centre."""
     count = len(parent)
     total, first = force.copy(), middle * force.reshape(-1, 1)
-    needed = np.empty(count)
+    needed = np.zeros(count)
     for link in range(count - 1, -1, -1):
         arm = first[link] - base[link] * total[link]
         moment = np.sqrt(np.sum(arm * arm))
-        needed[link] = (4.0 * moment / (np.pi * WORKING_STRESS)) ** (1.0 / 3.0)
+        needed[link] = max(needed[link], (4.0 * moment / (np.pi * WORKING_STRESS)) ** (1.0 / 3.0))
         if parent[link] >= 0:
+            needed[parent[link]] = max(needed[parent[link]], needed[link])
             total[parent[link]] += total[link]
             first[parent[link]] += first[link]
     return needed

@@ -8,7 +8,6 @@ import numpy as np
 
 from windswept.plants.plant import Plant
 from windswept.plants.species import load_species
-from windswept.plants.thicken import thicken
 from windswept.plants.weber_penn import grow
 
 
@@ -26,7 +25,7 @@ def plant_with_links(count: int, seed: int = 0) -> Plant:
         levels[-1] = levels[-1].model_copy(update={"curve_res": 8})
         growth = species.growth.model_copy(update={"level": levels})
         plant = grow(species.model_copy(update={"growth": growth}), seed)
-    return thicken(cut_to_links(plant, count))
+    return cut_to_links(plant, count)
 
 
 def cut_to_links(plant: Plant, count: int) -> Plant:

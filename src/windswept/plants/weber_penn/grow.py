@@ -12,6 +12,7 @@ from windswept.errors import InputError
 from windswept.plants.depth_first import depth_first
 from windswept.plants.plant import Plant
 from windswept.plants.species import Species, load_species
+from windswept.plants.thicken import thicken
 from windswept.plants.weber_penn.axes import grow_axes
 from windswept.plants.weber_penn.leaves import Leaves, grow_leaves
 from windswept.plants.weber_penn.sprout import sprout, trunk_shoot
@@ -44,7 +45,7 @@ def grow(
         stems = orders[-1].first_stem + len(orders[-1].stem_parent)
         links = orders[-1].first_link + len(orders[-1].link_parent)
         orders.append(_grow_order(tree, order, sprout(tree, orders[-1], links), stems, links))
-    return depth_first(_assembled(tree, orders, grow_leaves(tree, orders[-1])))
+    return thicken(depth_first(_assembled(tree, orders, grow_leaves(tree, orders[-1]))))
 
 
 def _grow_order(tree: Tree, order: int, shoots: Shoots, first_stem: int, first_link: int) -> Wood:
