@@ -8,7 +8,7 @@ import pytest
 from windswept.wind.gusts import Gust, gust_step
 from windswept.wind.mean import MeanWind, Profile, profile_factor
 from windswept.wind.plausible_waves import plausible_waves
-from windswept.wind.velocity import velocity, velocity_reference
+from windswept.wind.velocity import ALONE, velocity, velocity_reference
 from windswept.wind.waves import AS_PRINTED, Waves, WaveSchedule, WaveSet
 from windswept.wind.wind import Wind, calm
 
@@ -79,10 +79,11 @@ def test_mean_follows_the_profile_and_direction() -> None:
     assert not field[:, 2].any()
 
 
-@pytest.mark.parametrize("count", [0, 1, 511, 512, 513])
-def test_any_number_of_points(count: int) -> None:
+@pytest.mark.parametrize("count", [0, 1, 511, 512, 513, ALONE, ALONE + 1])
+def test_any_number_of_points_on_one_thread_or_more(count: int) -> None:
     points, height = some_points(count)
-    assert velocity(WINDS["all"], points, height, 1.0).shape == (count, 3)
+    expected = velocity_reference(WINDS["all"], points, height, 1.0)
+    np.testing.assert_allclose(velocity(WINDS["all"], points, height, 1.0), expected, atol=5e-5)
 
 
 def test_result_does_not_depend_on_the_neighbours_and_fills_out() -> None:
