@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from handmade import build_plant, random_tree, straight
-from windswept.studies.mujoco_tree import mujoco_frequencies, mujoco_tree
 from windswept.motion.model import build_model
 from windswept.motion.modes import plant_frequencies, stem_frequencies
 from windswept.motion.rods import build_rods
 from windswept.motion.skeleton import build_skeleton
 from windswept.plants.plant import Material
+from windswept.studies.mujoco_tree import mujoco_frequencies, mujoco_tree
 
 WOOD = Material(youngs_modulus=9.5e9, wood_density=800.0)
 

@@ -10,11 +10,11 @@ import pytest
 from scipy.special import ellipeinc, ellipkinc
 
 from handmade import build_plant, random_tree, straight
-from windswept.studies.mujoco_tree import mujoco_tree
 from windswept.motion import Model, Stepper, build_model, pose_links, push, rest_state
 from windswept.motion.model import TIME_STEP
 from windswept.motion.springs_plain import pose_plain, step_plain
 from windswept.plants.plant import Material
+from windswept.studies.mujoco_tree import mujoco_tree
 
 LIMP = Material(youngs_modulus=3e8, damping_ratio=0.05)
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from handmade import build_plant, straight
 
+from handmade import build_plant, straight
 from windswept.plants.plant import Material
 from windswept.plants.thicken import AIR_DENSITY, PLATE_SHARE, WORKING_STRESS, WORKING_WIND, thicken
 
