@@ -39,7 +39,7 @@ class DetailRules:
     """Least length of leaves drawn with the finest and the middle mesh, pixels."""
 
 
-SOFTWARE_RULES = DetailRules((24.0, 7.0, 2.2, 0.5), 6.5, 6.0, (70.0, 24.0))
+SOFTWARE_RULES = DetailRules((24.0, 7.0, 2.2, 0.7), 7.5, 6.0, (70.0, 24.0))
 """For a machine that draws triangles on the CPU."""
 
 

@@ -6,16 +6,18 @@ from typing import Any
 
 import numpy as np
 import wgpu
+from numpy.typing import NDArray
 
-from windswept.gpu.buffers import filled
+from windswept.gpu import layouts
+from windswept.gpu.buffers import UNIFORM, GrowingBuffer, filled
 from windswept.gpu.frame import Ground
+from windswept.gpu.grass_field import grass_field
 from windswept.gpu.ground_mesh import ground_mesh
-from windswept.gpu.wiring import bind, colour_pipeline
+from windswept.gpu.wiring import DRAWING, READ, bind, buffers_layout, colour_pipeline
+from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
 
-GRASS_SPACINGS = (0.07, 0.16, 0.40)
-"""Lattice spacing of each ring of grass, m; a ring ends where the next begins."""
-GRASS_CELLS = 110
-"""CELLS of ``grass.wgsl``."""
+Doubles = NDArray[np.float64]
+
 GRASS_BATCH = 64
 """BATCH of ``grass.wgsl``."""
 BLADE_TRIANGLES = np.array([(0, 1, 2), (1, 3, 2), (2, 3, 4)], np.uint32)
@@ -51,67 +53,58 @@ class Backdrop:
         colour_format: str,
         samples: int,
     ) -> None:
-        height_layout = device.create_bind_group_layout(
-            entries=[
-                {
-                    "binding": 0,
-                    "visibility": wgpu.ShaderStage.VERTEX,
-                    "texture": {"sample_type": "unfilterable-float"},
-                }
-            ]
-        )
-        self._heights = bind(device, height_layout, _height_texture(device, ground).create_view())
-        layouts = [frame_layout, height_layout, light_layout]
+        self._device = device
+        self._ground_shape = ground
+        self._grass_layout = buffers_layout(device, DRAWING, READ, UNIFORM_BINDING)
+        layouts_far = [frame_layout, buffers_layout(device, DRAWING), light_layout]
+        layouts_near = [frame_layout, self._grass_layout, light_layout]
+        self._no_buffers = bind(device, layouts_far[1])
         picture = (colour_format, samples)
         mesh = ground_mesh(ground)
         self._vertices = filled(device, mesh.vertices, wgpu.BufferUsage.VERTEX)
         self._triangles = filled(device, mesh.triangles.astype(np.uint32), wgpu.BufferUsage.INDEX)
         self._index_count = mesh.triangles.size
         self._ground = colour_pipeline(
-            device, layouts, "ground", *picture, cull="back", vertex_buffers=[_VERTEX]
+            device, layouts_far, "ground", *picture, cull="back", vertex_buffers=[_VERTEX]
         )
-        self._sky = colour_pipeline(device, layouts, "sky", *picture)
-        inner = 0.0
-        self._grass = []
-        for spacing in GRASS_SPACINGS:
-            constants = {"SPACING": spacing, "INNER": inner}
-            self._grass.append(colour_pipeline(device, layouts, "grass", *picture, constants))
-            inner = 0.5 * GRASS_CELLS * spacing * 0.8
+        self._sky = colour_pipeline(device, layouts_far, "sky", *picture)
+        self._grass = colour_pipeline(device, layouts_near, "grass", *picture)
+        self._blade_rows = GrowingBuffer(device, layouts.GRASS_BLADE)
+        self._batch = device.create_buffer(size=layouts.BATCH.itemsize, usage=UNIFORM)
+        self._blade_count = 0
+        self._stood_for: Doubles | None = None
         blades = BLADE_TRIANGLES.reshape(1, -1) + 5 * np.arange(GRASS_BATCH, dtype=np.uint32)[:, None]
         self._blades = filled(device, blades.ravel(), wgpu.BufferUsage.INDEX)
 
+    def upload(self, eye: Doubles, planes: Doubles) -> None:
+        """Find the blades of grass in sight of a camera at ``eye`` (3,) with frustum ``planes`` (5, 4)."""
+        if self._stood_for is not None and np.array_equal(planes, self._stood_for):
+            return
+        self._stood_for = planes
+        rows = grass_field(self._ground_shape, eye, planes)
+        self._blade_count = len(rows)
+        self._blade_rows.reserve(len(rows))
+        self._blade_rows.write(rows)
+        batch = np.zeros(1, layouts.BATCH)
+        batch["items"] = 0, len(rows), 1, 0
+        self._device.queue.write_buffer(self._batch, 0, batch)
+
     def draw_near(self, render_pass: Any) -> None:
         """Record the grass; bind groups 0 and 2 are set."""
-        render_pass.set_bind_group(1, self._heights)
+        if self._blade_count == 0:
+            return
+        group = bind(self._device, self._grass_layout, self._blade_rows.buffer, self._batch)
+        render_pass.set_bind_group(1, group)
         render_pass.set_index_buffer(self._blades, "uint32")
-        instances = -(-(GRASS_CELLS**2) // GRASS_BATCH)
-        for pipeline in self._grass:
-            render_pass.set_pipeline(pipeline)
-            render_pass.draw_indexed(BLADE_TRIANGLES.size * GRASS_BATCH, instances)
+        render_pass.set_pipeline(self._grass)
+        render_pass.draw_indexed(BLADE_TRIANGLES.size * GRASS_BATCH, -(-self._blade_count // GRASS_BATCH))
 
     def draw_far(self, render_pass: Any) -> None:
         """Record ground and sky, best after everything that hides them."""
-        render_pass.set_bind_group(1, self._heights)
+        render_pass.set_bind_group(1, self._no_buffers)
         render_pass.set_pipeline(self._ground)
         render_pass.set_vertex_buffer(0, self._vertices)
         render_pass.set_index_buffer(self._triangles, "uint32")
         render_pass.draw_indexed(self._index_count)
         render_pass.set_pipeline(self._sky)
         render_pass.draw(3)
-
-
-def _height_texture(device: Any, ground: Ground) -> Any:
-    rows, columns = ground.height.shape
-    texture = device.create_texture(
-        size=(columns, rows, 1),
-        format="r32float",
-        usage=wgpu.TextureUsage.TEXTURE_BINDING | wgpu.TextureUsage.COPY_DST,
-    )
-    data = np.ascontiguousarray(ground.height, np.float32)
-    device.queue.write_texture(
-        {"texture": texture},
-        data,
-        {"bytes_per_row": 4 * columns, "rows_per_image": rows},
-        (columns, rows, 1),
-    )
-    return texture

@@ -13,7 +13,7 @@ SUN_ABOVE_AIR = np.array([5.6, 5.3, 5.0])
 """Linear RGB of the sun outside the atmosphere, in the renderer's own unit."""
 OPTICAL_DEPTH = np.array([0.10, 0.17, 0.33])
 """Rayleigh and aerosol depth of a clear rural sky straight up at 640, 550 and 450 nm."""
-EXTINCTION = 1.0 / 1500.0
+EXTINCTION = 1.0 / 3200.0
 """Of the haze near the ground, 1/m: clear summer air with a little moisture."""
 
 
@@ -38,6 +38,6 @@ def daylight(sun: Doubles) -> Daylight:
     risen = np.clip(elevation / 4.0 + 0.5, 0.0, 1.0)
     light = risen * SUN_ABOVE_AIR * np.exp(-OPTICAL_DEPTH * air_mass)
     bright = 0.12 + 0.88 * np.clip(sun[2] * 1.6, 0.0, 1.0)
-    sky = bright * np.array([0.62, 0.80, 1.12])
-    haze = bright * np.array([0.86, 1.00, 1.16]) + 0.10 * light
+    sky = bright * np.array([0.78, 0.92, 1.18])
+    haze = bright * np.array([0.70, 0.80, 0.92]) + 0.05 * light
     return Daylight(light, sky, haze)

@@ -31,6 +31,8 @@ class View:
     shadow_centre: Doubles
     """(3,) middle of the ball that receives shadows, m."""
     shadow_radius: float
+    shadow_texel: float
+    """Side of a texel of the shadow map, m: all the detail that a plant out of sight needs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +88,10 @@ def draw_list(
     link_first = shift_first = 0
     for look, (kind, posed) in enumerate(zip(kinds, plants, strict=True)):
         centre = _placed_centres(kind, posed)
-        detail = choose_detail(kind.order, _pixels(view, centre, kind.radius), rules)
+        seen = _seen(centre, kind.radius, view)
+        pixels = _pixels(view, centre, kind.radius)
+        pixels = np.where(seen, pixels, np.minimum(pixels, 1.0 / view.shadow_texel))
+        detail = choose_detail(kind.order, pixels, rules)
         rows.append(_placement_rows(kind, posed, detail, look, link_first, shift_first))
         centres.append(centre)
         radii.append(np.full(len(centre), kind.radius))
@@ -138,7 +143,7 @@ def _arrange(
     rows: NDArray[np.void], centres: Doubles, radii: Doubles, mesh: NDArray[np.int32], view: View
 ) -> DrawList:
     """Order placements as shadows only, near, far; then give each its places among the posed items."""
-    seen = (centres @ view.planes[:, :3].T + view.planes[:, 3] > -radii[:, None]).all(axis=1)
+    seen = _seen(centres, radii, view)
     casts = _casts(centres, radii, view)
     distance = np.linalg.norm(centres - np.asarray(view.camera.eye), axis=1)
     group = np.where(~seen, 0, np.where(casts, 1, 2))
@@ -161,6 +166,12 @@ def _arrange(
         int(rows["piece_limit"][:, BUCKETS - 1].max(initial=0)),
         int(leaf_counts.max(initial=0)),
     )
+
+
+def _seen(centres: Doubles, radii: Doubles | float, view: View) -> NDArray[np.bool_]:
+    """(n,) whether balls reach into the frustum."""
+    inside = centres @ view.planes[:, :3].T + view.planes[:, 3]
+    return (inside > -np.broadcast_to(radii, len(centres))[:, None]).all(axis=1)
 
 
 def _casts(centres: Doubles, radii: Doubles, view: View) -> NDArray[np.bool_]:

@@ -64,6 +64,7 @@ POSED_PIECE = np.dtype(
     ]
 )
 POSED_LEAF = LEAF
+GRASS_BLADE = np.dtype([("root", *REALS), ("chance", *REALS)])
 BATCH = np.dtype([("items", *COUNTS), ("scale", *REALS)])
 
 NONE = 0xFFFFFFFF

@@ -31,12 +31,16 @@ from windswept.plants.plant import Ints
 
 STEM_GRIDS = ((12, 20), (5, 9), (3, 5), (2, 3))
 """Rings along a piece and sides round it, for each bucket."""
+STEM_LIT = ("", "", "_lit", "_lit")
+"""Whether each bucket is lit at its vertices: cheaper where faces are as small as pixels."""
 STEM_SHADOW_GRIDS = ((5, 8), (3, 5), (2, 3))
 """The same for shadows; the finest twigs throw none."""
 STEM_BATCH = 32
 """BATCH of ``bark.wgsl``."""
 LEAF_STATIONS = (5, 3, 1)
 """Edge points of each leaf mesh."""
+LEAF_LIT = ("", "", "_lit")
+"""Whether each leaf mesh is lit at its vertices."""
 LEAF_BATCH = 64
 """BATCH of ``leaves.wgsl``."""
 SHADOW_LEAF_STEP = 2
@@ -77,10 +81,16 @@ class PlantDrawing:
                 (rings + 1) * (sides + 1),
                 STEM_BATCH,
                 colour_pipeline(
-                    device, colours, "bark", *picture, {"RINGS": rings, "SIDES": sides}, cull="back"
+                    device,
+                    colours,
+                    "bark",
+                    *picture,
+                    {"RINGS": rings, "SIDES": sides},
+                    cull="back",
+                    lit=lit,
                 ),
             )
-            for rings, sides in STEM_GRIDS
+            for (rings, sides), lit in zip(STEM_GRIDS, STEM_LIT, strict=True)
         ]
         self._stem_shadows = [
             _Mesh(
@@ -94,13 +104,15 @@ class PlantDrawing:
         ]
         meshes = [leaf_mesh(stations) for stations in LEAF_STATIONS]
         self._blades = [filled(device, _blade_rows(mesh)) for mesh in meshes]
-        self._leaves, self._leaf_shadows = [], []
-        for mesh in meshes:
+        self._leaves = []
+        for mesh, lit in zip(meshes, LEAF_LIT, strict=True):
             count = mesh.vertices.shape[1]
-            shape = (device, mesh.triangles, count, LEAF_BATCH)
-            constants = {"VERTICES": count}
-            self._leaves.append(_Mesh(*shape, colour_pipeline(device, colours, "leaves", *picture, constants)))
-            self._leaf_shadows.append(_Mesh(*shape, shadow_pipeline(device, shadows, "leaves", constants)))
+            pipeline = colour_pipeline(device, colours, "leaves", *picture, {"VERTICES": count}, lit=lit)
+            self._leaves.append(_Mesh(device, mesh.triangles, count, LEAF_BATCH, pipeline))
+        kite = meshes[-1]
+        count = kite.vertices.shape[1]
+        pipeline = shadow_pipeline(device, shadows, "leaves", {"VERTICES": count})
+        self._leaf_shadow = _Mesh(device, kite.triangles, count, LEAF_BATCH, pipeline)
         self._batches = device.create_buffer(
             size=UNIFORM_STRIDE * 2 * (len(STEM_GRIDS) + len(LEAF_STATIONS)), usage=UNIFORM
         )
@@ -134,9 +146,9 @@ class PlantDrawing:
         for slot, (mesh, bucket) in enumerate(zip(self._stem_shadows, wanted.pieces, strict=False)):
             mesh.draw(render_pass, stem_group, first + slot, _casting(bucket, 1)[1])
         first += len(STEM_GRIDS)
-        casting = zip(self._leaf_shadows, leaf_groups, wanted.leaves, strict=True)
-        for slot, (mesh, group, leaves) in enumerate(casting):
-            mesh.draw(render_pass, group, first + slot, _casting(leaves, SHADOW_LEAF_STEP)[1])
+        for slot, leaves in enumerate(wanted.leaves):
+            count = _casting(leaves, SHADOW_LEAF_STEP)[1]
+            self._leaf_shadow.draw(render_pass, leaf_groups[-1], first + slot, count)
 
     def _groups(self) -> tuple[Any, list[Any]]:
         """Bind group 1 for stems, and for the leaves of each mesh; posed buffers may have grown."""

@@ -118,6 +118,7 @@ class Renderer:
         )
         self.posing.upload(frame.plants, shifts, wanted)
         self._plant_drawing.upload(wanted)
+        self._backdrop.upload(np.asarray(frame.camera.eye, np.float64), scene_view.planes)
         encoder = self._device.create_command_encoder()
         self.posing.encode(encoder, self._frame_group, wanted)
         self._encode_shadows(encoder, wanted)
@@ -183,4 +184,5 @@ class Renderer:
         rows["haze"] = *light.haze, EXTINCTION
         rows["wind"] = *frame.wind, frame.wind[0] * frame.time, frame.wind[1] * frame.time
         rows["terrain"] = *self._ground.origin, self._ground.spacing, 0.0
-        return View(frame.camera, height, frustum_planes(camera), sun, centre, radius), rows
+        texel = 2.0 * radius / SHADOW_TEXELS
+        return View(frame.camera, height, frustum_planes(camera), sun, centre, radius, texel), rows

@@ -12,8 +12,8 @@ SHADER_SETS = {
     "curves": ("types", "curves"),
     "bark": ("types", "light", "bark"),
     "leaves": ("types", "light", "leaves"),
-    "ground": ("types", "light", "ground"),
-    "grass": ("types", "light", "grass"),
+    "ground": ("types", "light", "meadow", "ground"),
+    "grass": ("types", "light", "meadow", "grass"),
     "sky": ("types", "light", "sky"),
 }
 """Files of ``shaders/`` that make up each module, one after the other."""
@@ -97,14 +97,27 @@ def colour_pipeline(
     constants: dict[str, float] | None = None,
     cull: str = "none",
     vertex_buffers: list[dict[str, Any]] | None = None,
+    lit: str = "",
 ) -> Any:
-    """Pipeline into the picture; depth runs from 1 near to 0 at infinity."""
+    """Pipeline into the picture; depth runs from 1 near to 0 at infinity.
+
+    Args:
+        device: the card.
+        layouts: of the bind groups.
+        module: name of the shader set.
+        colour_format: of the picture.
+        samples: of the picture.
+        constants: values of the shader's overrides.
+        cull: side of triangles that is not drawn.
+        vertex_buffers: layouts, where vertices are not pulled.
+        lit: ending of the entry points; "_lit" where light is worked out at the vertices.
+    """
     shader = shader_module(device, module)
     return device.create_render_pipeline(
         layout=device.create_pipeline_layout(bind_group_layouts=layouts),
         vertex={
             "module": shader,
-            "entry_point": "vertex",
+            "entry_point": "vertex" + lit,
             "buffers": vertex_buffers or [],
             "constants": constants or {},
         },
@@ -117,7 +130,7 @@ def colour_pipeline(
         multisample={"count": samples},
         fragment={
             "module": shader,
-            "entry_point": "fragment",
+            "entry_point": "fragment" + lit,
             "targets": [{"format": colour_format}],
         },
     )

@@ -25,30 +25,42 @@ struct Bark {
     @location(4) @interpolate(flat) look: u32,
 }
 
-// Weber and Penn's taper with its rounded and beaded ends, m; see plants/radius.py.
-fn taper_radius(stem: Stem, z: f32) -> f32 {
+struct LitVertex {
+    @builtin(position) clip: vec4f,
+    @location(0) colour: vec3f,
+}
+
+// Weber and Penn's taper with its rounded and beaded ends, and its slope, over Z; see plants/radius.py.
+fn taper_radius(stem: Stem, z: f32) -> vec2f {
     let taper = stem.profile.y;
     let unit = select(max(2.0 - taper, 0.0), taper, taper < 1.0);
-    let plain = stem.profile.x * (1.0 - unit * z);
+    let plain = vec2f(stem.profile.x * (1.0 - unit * z), -stem.profile.x * unit);
     if taper < 1.0 { return plain; }
-    let to_tip = (1.0 - z) * stem.extent.w;
+    let to_tip = vec2f((1.0 - z) * stem.extent.w, -stem.extent.w);
     let rounded = taper < 2.0;
-    let bead = 2.0 * max(plain, 1e-9);
-    let along = select(abs(to_tip - bead * floor(to_tip / bead + 0.5)), to_tip, rounded);
-    if rounded && along >= plain { return plain; }
-    let depth = select(taper - 2.0, 1.0, rounded || to_tip < plain);
-    let bulge = sqrt(max(plain * plain - (along - plain) * (along - plain), 0.0));
-    return (1.0 - depth) * plain + depth * bulge;
+    if rounded && to_tip.x >= plain.x { return plain; }
+    let bead = 2.0 * max(plain, vec2f(1e-9, -1e9));
+    let offset = to_tip - select(bead * floor(to_tip.x / bead.x + 0.5), vec2f(0.0), rounded);
+    let along = select(offset * sign(offset.x), to_tip, rounded);
+    let depth = select(taper - 2.0, 1.0, rounded || to_tip.x < plain.x);
+    let inward = along - plain;
+    let bulge = sqrt(max(plain.x * plain.x - inward.x * inward.x, 0.0));
+    let slope = (plain.x * plain.y - inward.x * inward.y) / max(bulge, 0.05 * plain.x + 1e-9);
+    return (1.0 - depth) * plain + depth * vec2f(bulge, slope);
 }
 
-fn flare_factor(flare: f32, z: f32) -> f32 {
-    return 1.0 + flare * (pow(100.0, max(0.0, 1.0 - 8.0 * z)) - 1.0) / 100.0;
+fn flare_factor(flare: f32, z: f32) -> vec2f {
+    let power = flare * pow(100.0, max(0.0, 1.0 - 8.0 * z)) / 100.0;
+    return vec2f(1.0 - flare / 100.0 + power, select(0.0, -36.84136 * power, z < 0.125));
 }
 
-// Radius without lobes at a share of the stem's length, m.
-fn profile(stem: Stem, span: f32) -> f32 {
+// Radius without lobes at a share of the stem's length, m, and its slope over that share.
+fn profile(stem: Stem, span: f32) -> vec2f {
     let z = mix(stem.extent.y, stem.extent.z, span);
-    return taper_radius(stem, z) * flare_factor(stem.profile.z, z);
+    let taper = taper_radius(stem, z);
+    let flare = flare_factor(stem.profile.z, z);
+    let slope = taper.x * flare.y + taper.y * flare.x;
+    return vec2f(taper.x * flare.x, slope * (stem.extent.z - stem.extent.y));
 }
 
 fn surface(piece: PosedPiece, stem: Stem, t: f32, angle: f32) -> Surface {
@@ -71,14 +83,11 @@ fn surface(piece: PosedPiece, stem: Stem, t: f32, angle: f32) -> Surface {
 
     let extent = piece.p1.w - piece.p0.w;
     let span = mix(piece.p0.w, piece.p1.w, t);
-    let nudge = 0.002;
     let lobes = stem.profile.w;
     let lobe = 1.0 + stem.extent.x * sin(lobes * angle);
-    let width = piece.side0.w * lobe;
-    let radius = profile(stem, span) * width;
-    let ahead = min(span + nudge, 1.0);
-    let behind = max(span - nudge, 0.0);
-    let taper = (profile(stem, ahead) - profile(stem, behind)) / (ahead - behind) * extent * width;
+    let shape = profile(stem, span) * piece.side0.w * lobe;
+    let radius = shape.x;
+    let taper = shape.y * extent;
     let swell = radius / lobe * stem.extent.x * lobes * cos(lobes * angle);
 
     let along = 3.0 * (legs * weights) + radius * turning + taper * out;
@@ -99,8 +108,7 @@ fn place(vertex: u32, instance: u32) -> Place {
     return Place(item, f32(grid / row) / f32(RINGS), f32(grid % row) / f32(SIDES));
 }
 
-@vertex
-fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Bark {
+fn posed_vertex(vertex: u32, instance: u32) -> Bark {
     let at = place(vertex, instance);
     var out: Bark;
     if at.item >= batch.items.y { return out; }
@@ -116,6 +124,11 @@ fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance:
     out.shade = vec3f(mix(piece.p2.w, piece.p3.w, at.t), span * stem.attach.z, fract(piece.side1.w * 3.7));
     out.look = piece.rows.y;
     return out;
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Bark {
+    return posed_vertex(vertex, instance);
 }
 
 @vertex
@@ -149,11 +162,24 @@ fn fragment(in: Bark) -> @location(0) vec4f {
 
     let crevice = mix(1.0, 0.35 + 0.9 * furrow, 0.35 + 0.65 * relief);
     var albedo = look.bark.rgb * crevice * (0.75 + 0.5 * broad);
-    let moss = smoothstep(0.52, 0.75, broad + 0.25 * normal.y) * exp(-0.9 * in.world.z) * 0.0;
-    albedo = mix(albedo, vec3f(0.07, 0.10, 0.03), moss);
-
     let direct = max(dot(normal, frame.sun.xyz), 0.0);
-    var light = ambient(normal) * in.shade.x * (0.6 + 0.4 * furrow);
+    var light = ambient(normal) * (0.25 + 0.75 * in.shade.x) * (0.6 + 0.4 * furrow);
     if direct > 0.0 { light += frame.sun_light.rgb * direct * sunlight(in.world, in.normal); }
     return finished(albedo * light, in.world);
+}
+
+// Stems of a few pixels are lit at their vertices and have no furrows.
+@vertex
+fn vertex_lit(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> LitVertex {
+    let in = posed_vertex(vertex, instance);
+    let direct = max(dot(in.normal, frame.sun.xyz), 0.0);
+    let sun = frame.sun_light.rgb * direct * sunlight_once(in.world, in.normal);
+    let light = sun + ambient(in.normal) * (0.25 + 0.75 * in.shade.x);
+    let albedo = looks[in.look].bark.rgb * (0.7 + 0.4 * in.shade.z);
+    return LitVertex(in.clip, finished(albedo * light, in.world).rgb);
+}
+
+@fragment
+fn fragment_lit(in: LitVertex) -> @location(0) vec4f {
+    return vec4f(in.colour, 1.0);
 }

@@ -14,8 +14,13 @@ struct LeafVertex {
     @location(0) world: vec3f,
     @location(1) normal: vec3f,
     @location(2) outward: vec3f,
-    @location(3) shade: vec3f,   // openness, random number, distance from the midrib over the width
+    @location(3) shade: vec2f,   // openness, random number
     @location(4) @interpolate(flat) look: u32,
+}
+
+struct LitVertex {
+    @builtin(position) clip: vec4f,
+    @location(0) colour: vec3f,
 }
 
 fn blade_row(leaf: PosedLeaf, vertex: u32) -> u32 {
@@ -29,35 +34,25 @@ fn blade_point(leaf: PosedLeaf, shape: vec3f) -> vec3f {
         + leaf.axis.w * (shape.x * across + shape.z * leaf.normal.xyz));
 }
 
-@vertex
-fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> LeafVertex {
+fn posed_vertex(vertex: u32, instance: u32) -> LeafVertex {
     let item = instance * BATCH + vertex / VERTICES;
     var out: LeafVertex;
     if item >= batch.items.y { return out; }
     let leaf = posed_leaves[batch.items.x + item * batch.items.z];
     let row = blade_row(leaf, vertex);
-    let shape = blade[row].xyz;
     let facing = blade[row + 1u].xyz;
     let across = cross(leaf.axis.xyz, leaf.normal.xyz);
-    out.world = blade_point(leaf, shape);
+    out.world = blade_point(leaf, blade[row].xyz);
     out.clip = frame.view_projection * vec4f(out.world, 1.0);
     out.normal = facing.x * across + facing.y * leaf.axis.xyz + facing.z * leaf.normal.xyz;
     out.outward = leaf.outward.xyz;
-    out.shade = vec3f(leaf.normal.w, leaf.outward.w, 2.0 * shape.x);
+    out.shade = vec2f(leaf.normal.w, leaf.outward.w);
     out.look = leaf.rows.x;
     return out;
 }
 
-@vertex
-fn shadow(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4f {
-    let item = instance * BATCH + vertex / VERTICES;
-    if item >= batch.items.y { return vec4f(0.0); }
-    let leaf = posed_leaves[batch.items.x + item * batch.items.z];
-    return frame.sun_projection * vec4f(blade_point(leaf, blade[blade_row(leaf, vertex)].xyz), 1.0);
-}
-
-@fragment
-fn fragment(in: LeafVertex, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+// Linear colour of a leaf seen from its upper face (front) or its lower one.
+fn leaf_colour(in: LeafVertex, front: bool) -> vec3f {
     let look = looks[in.look];
     let open = in.shade.x;
     let chance = in.shade.y;
@@ -66,17 +61,48 @@ fn fragment(in: LeafVertex, @builtin(front_facing) front: bool) -> @location(0) 
     let sun = frame.sun.xyz;
 
     // A few leaves are yellower, most only lighter or darker than their neighbours.
-    let tint = mix(vec3f(1.0), vec3f(1.45, 1.12, 0.7), chance * chance * 0.55) * (0.8 + 0.4 * fract(chance * 17.3));
+    let tint = mix(vec3f(1.0), vec3f(1.4, 1.1, 0.75), chance * chance * 0.5) * (0.75 + 0.4 * fract(chance * 17.3));
     let albedo = tint * select(look.back.rgb, look.leaf.rgb, front);
-    let through = tint * look.leaf.rgb * vec3f(1.5, 1.35, 0.45);
+    let through = tint * look.leaf.rgb * vec3f(1.35, 1.25, 0.45);
 
     let crown_normal = normalize(blade_normal + 0.9 * in.outward);
     let facing = dot(blade_normal, sun);
     let reflected = max(mix(facing, dot(crown_normal, sun), 0.45), 0.0);
     let passed = max(-facing, 0.0);
-    let gloss = 0.10 * pow(max(dot(blade_normal, normalize(sun + to_eye)), 0.0), 28.0);
-    let lit = sunlight_once(in.world, blade_normal) * (0.35 + 0.65 * open);
+    let gloss = 0.08 * pow(max(dot(blade_normal, normalize(sun + to_eye)), 0.0), 28.0);
+    let lit = sunlight_once(in.world, blade_normal) * (0.5 + 0.5 * open);
     let direct = frame.sun_light.rgb * lit * (albedo * reflected + through * passed + gloss);
-    let dim = ambient(crown_normal) * open * (0.35 + 0.65 * open);
-    return finished(direct + dim * (albedo + 0.25 * through) * 1.15, in.world);
+    let dim = ambient(crown_normal) * (0.16 + 0.84 * open);
+    return direct + dim * (albedo + 0.25 * through);
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> LeafVertex {
+    return posed_vertex(vertex, instance);
+}
+
+@fragment
+fn fragment(in: LeafVertex, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    return finished(leaf_colour(in, front), in.world);
+}
+
+// Leaves of a few pixels are lit at their vertices.
+@vertex
+fn vertex_lit(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> LitVertex {
+    let leaf = posed_vertex(vertex, instance);
+    let front = dot(leaf.normal, frame.eye.xyz - leaf.world) > 0.0;
+    return LitVertex(leaf.clip, finished(leaf_colour(leaf, front), leaf.world).rgb);
+}
+
+@fragment
+fn fragment_lit(in: LitVertex) -> @location(0) vec4f {
+    return vec4f(in.colour, 1.0);
+}
+
+@vertex
+fn shadow(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4f {
+    let item = instance * BATCH + vertex / VERTICES;
+    if item >= batch.items.y { return vec4f(0.0); }
+    let leaf = posed_leaves[batch.items.x + item * batch.items.z];
+    return frame.sun_projection * vec4f(blade_point(leaf, blade[blade_row(leaf, vertex)].xyz), 1.0);
 }

@@ -49,9 +49,9 @@ fn ambient(normal: vec3f) -> vec3f {
 fn sky_radiance(direction: vec3f) -> vec3f {
     let height = max(direction.z, 0.0);
     let towards = max(dot(direction, frame.sun.xyz), 0.0);
-    let zenith = frame.sky_light.rgb * vec3f(0.30, 0.46, 0.80);
-    let clear = mix(zenith, frame.haze.rgb, exp(-4.5 * height));
-    let glow = 0.28 * pow(towards, 6.0) * exp(-2.0 * height) + 0.30 * pow(towards, 60.0);
+    let zenith = frame.sky_light.rgb * vec3f(0.20, 0.38, 0.72);
+    let clear = mix(zenith, frame.haze.rgb, exp(-5.5 * height));
+    let glow = 0.16 * pow(towards, 5.0) * exp(-2.0 * height) + 0.30 * pow(towards, 60.0);
     return clear + glow * frame.sun_light.rgb * 0.4;
 }
 

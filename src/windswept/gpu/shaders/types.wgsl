@@ -89,6 +89,11 @@ struct Batch {
     scale: vec4f,   // factor on an item's size; 0; 0; 0
 }
 
+struct GrassBlade {
+    root: vec4f,    // foot on the ground, m; size 0..1 by how far the camera is
+    chance: vec4f,  // random numbers in 0..1
+}
+
 const NONE = 0xffffffffu;
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -1,0 +1,161 @@
+"""The live window: orbit with the mouse, set the wind, pause."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+from windswept.errors import GraphicsError
+from windswept.geometry.geometry import Geometry
+from windswept.gpu.device import shared_device
+from windswept.gpu.draw_list import DrawList
+from windswept.gpu.frame import FLAT_GROUND, Camera, Frame, Ground
+from windswept.gpu.renderer import Renderer
+from windswept.plants.plant import Plant
+from windswept.render.orbit import Orbit, orbit_from
+
+TURN_PER_PIXEL = 0.006
+ZOOM_PER_STEP = 1.0015
+LONGEST_STEP = 0.1
+"""Most time that one frame advances, s: after a stall the scene goes on where it was."""
+STRONGEST_WIND = 25.0
+"""End of the wind slider, m/s."""
+
+
+@dataclass(slots=True)
+class Controls:
+    """What the window's sliders set; the caller reads it at every frame."""
+
+    wind_speed: float = 5.0
+    """m/s."""
+    wind_heading: float = 0.0
+    """Direction in which the wind blows, rad from +X towards +Y."""
+    paused: bool = False
+    counters: str = ""
+    """A line of text shown below the sliders; the caller may set it."""
+
+
+Advance = Callable[[float, Controls, Camera], Frame]
+"""Given the seconds since the last frame (0 while paused), the controls and the camera: the frame to draw."""
+
+
+def show_window(
+    plants: list[Plant],
+    geometries: list[Geometry],
+    advance: Advance,
+    camera: Camera,
+    ground: Ground = FLAT_GROUND,
+    controls: Controls | None = None,
+    title: str = "windswept",
+) -> None:
+    """Open a window and run until it is closed.
+
+    Args:
+        plants: one of each kind.
+        geometries: the drawn form of each.
+        advance: steps the scene and gives the frame to draw.
+        camera: where the view begins; the window orbits round its target.
+        ground: terrain heights.
+        controls: where the sliders begin.
+        title: of the window.
+
+    Raises:
+        GraphicsError: no display, no adapter, or the ``view`` extra is not installed.
+    """
+    _require_display()
+    try:
+        from rendercanvas.glfw import RenderCanvas, loop
+        from wgpu.utils.imgui import ImguiRenderer
+    except ImportError as error:
+        raise GraphicsError(f"the window needs: pip install 'windswept[view]' ({error})") from error
+    device = shared_device()
+    canvas = RenderCanvas(title=title, size=(1280, 720), update_mode="continuous", max_fps=60)
+    context = canvas.get_wgpu_context()
+    colour_format = context.get_preferred_format(device.adapter)
+    context.configure(device=device, format=colour_format)
+    renderer = Renderer(plants, geometries, ground, canvas.get_physical_size(), None, colour_format)
+    panel = ImguiRenderer(device, canvas)
+    view = _LiveView(renderer, advance, orbit_from(camera), controls or Controls())
+    panel.set_gui(view.panel)
+    canvas.add_event_handler(view.handle, "pointer_move", "wheel")
+
+    def draw() -> None:
+        view.draw(context.get_current_texture())
+        panel.render()
+
+    canvas.request_draw(draw)
+    loop.run()
+
+
+def _require_display() -> None:
+    """Refuse early: without a display the window library would abort the process."""
+    names = ("DISPLAY", "WAYLAND_DISPLAY")
+    if os.name == "posix" and os.uname().sysname == "Linux" and not any(os.environ.get(n) for n in names):
+        raise GraphicsError(
+            "no display: neither DISPLAY nor WAYLAND_DISPLAY is set; `windswept render` needs none"
+        )
+
+
+class _LiveView:
+    """State of one window."""
+
+    def __init__(self, renderer: Renderer, advance: Advance, orbit: Orbit, controls: Controls) -> None:
+        self._renderer = renderer
+        self._advance = advance
+        self._orbit = orbit
+        self._controls = controls
+        self._last = perf_counter()
+        self._frame_time = 0.0
+        self._pointer: tuple[float, float] | None = None
+        self._drawn: DrawList | None = None
+
+    def draw(self, texture: Any) -> None:
+        """Advance the scene and draw it into the window's texture."""
+        now = perf_counter()
+        passed, self._last = now - self._last, now
+        self._frame_time += 0.1 * (passed - self._frame_time)
+        if texture.size[:2] != self._renderer.size:
+            self._renderer.resize(texture.size[:2])
+        step = 0.0 if self._controls.paused else min(passed, LONGEST_STEP)
+        frame = self._advance(step, self._controls, self._orbit.camera())
+        self._drawn = self._renderer.draw_into(texture.create_view(), frame)
+
+    def handle(self, event: dict[str, Any]) -> None:
+        """Orbit on drag, zoom on scroll."""
+        if event["event_type"] == "wheel":
+            self._orbit = self._orbit.zoomed(ZOOM_PER_STEP ** event["dy"])
+        elif 1 in event["buttons"]:
+            x, y = event["x"], event["y"]
+            before = self._pointer or (x, y)
+            self._orbit = self._orbit.turned(TURN_PER_PIXEL * (x - before[0]), TURN_PER_PIXEL * (y - before[1]))
+            self._pointer = (x, y)
+            return
+        self._pointer = None
+
+    def panel(self) -> None:
+        """Sliders and counters."""
+        from imgui_bundle import imgui
+
+        controls = self._controls
+        imgui.set_next_window_pos((12.0, 12.0), imgui.Cond_.first_use_ever)
+        imgui.begin("wind", None, imgui.WindowFlags_.always_auto_resize)
+        _, controls.wind_speed = imgui.slider_float("m/s", controls.wind_speed, 0.0, STRONGEST_WIND)
+        _, controls.wind_heading = imgui.slider_angle("towards", controls.wind_heading, -180.0, 180.0)
+        _, controls.paused = imgui.checkbox("pause", controls.paused)
+        imgui.text(self._counter_line())
+        if controls.counters:
+            imgui.text(controls.counters)
+        imgui.end()
+
+    def _counter_line(self) -> str:
+        if self._drawn is None:
+            return ""
+        rate = 1.0 / max(self._frame_time, 1e-6)
+        drawn = self._drawn
+        return (
+            f"{rate:.0f} frames/s, {len(drawn.placements)} plants, "
+            f"{drawn.piece_count} stem pieces, {drawn.leaf_count} leaves"
+        )
