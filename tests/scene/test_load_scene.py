@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import pdist
 
+from windswept.forms.read_toml import read_toml
 from windswept.plants.weber_penn import grow
 from windswept.scene.camera import view_at
 from windswept.scene.form import SceneForm
 from windswept.scene.load_scene import build_scene, load_scene
-from windswept.scene.read_form import read_toml
 from windswept.scene.scene import PlantKind, Scene
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "forest_edge.toml"
@@ -139,7 +139,7 @@ def test_same_file_same_scene_and_seed_replaces() -> None:
 
 
 def test_form_survives_the_round_trip_through_its_values() -> None:
-    form = SceneForm.model_validate(read_toml(EXAMPLE))
+    form = SceneForm.model_validate(read_toml(EXAMPLE, 1 << 20, "a scene file"))
     assert SceneForm.model_validate(form.model_dump(exclude_none=True)) == form
 
 

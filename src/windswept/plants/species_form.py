@@ -9,24 +9,24 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
+from windswept.forms.form import Form
+from windswept.forms.words import Wording
 from windswept.plants.plant import Look, Material
 
-Identifier = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,63}$")]
-Line = Annotated[str, Field(max_length=200, pattern=r"^[^\r\n]*$")]
+Identifier = Annotated[
+    str,
+    Field(pattern=r"^[a-z][a-z0-9_]{0,63}$"),
+    Wording("a name of a-z, 0-9 and _ that begins with a letter"),
+]
+Line = Annotated[str, Field(max_length=200, pattern=r"^[^\r\n]*$"), Wording("one line of text")]
 Angle = Annotated[float, Field(ge=-360, le=360)]
 Spread = Annotated[float, Field(ge=0, le=360)]
 Share = Annotated[float, Field(ge=0, le=1)]
 Colour = Annotated[tuple[Share, Share, Share], Field(strict=False)]
 
 _MATERIAL, _LOOK = asdict(Material()), asdict(Look())
-
-
-class Form(BaseModel):
-    """A table of a species file: no unknown keys, no guessed types, no NaN, no infinity."""
-
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
 
 
 class Level(Form):

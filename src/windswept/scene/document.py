@@ -11,9 +11,9 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from windswept.forms.check_form import inner_form
+from windswept.forms.words import field_words, is_list
 from windswept.scene.form import SceneForm
-from windswept.scene.read_form import inner_form
-from windswept.scene.words import field_words, is_list
 
 BEGIN, END = "<!-- keys begin -->", "<!-- keys end -->"
 

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
+
+from windswept.forms.form import Form
 
 Coordinate = Annotated[float, Field(ge=-10_000, le=10_000)]
 Point = Annotated[tuple[Coordinate, Coordinate], Field(strict=False)]
@@ -19,14 +21,6 @@ Length = Annotated[float, Field(ge=0, le=10_000)]
 Speed = Annotated[float, Field(gt=0, le=100)]
 Source = Annotated[str, Field(min_length=1, max_length=1000)]
 Seed = Annotated[int, Field(ge=0, le=2**31 - 1)]
-
-
-class Form(BaseModel):
-    """A table of a scene file: no unknown keys, no guessed types, no NaN, no infinity."""
-
-    model_config = ConfigDict(
-        extra="forbid", strict=True, frozen=True, allow_inf_nan=False, use_attribute_docstrings=True
-    )
 
 
 class GroundForm(Form):
@@ -105,9 +99,9 @@ class WindForm(Form):
     """Height by which a closed canopy lifts the wind, 0.7 of its own."""
     turbulence: Annotated[float, Field(ge=0, le=1)] = 0.25
     """Standard deviation of the speed over the mean speed: 0.1 over water, 0.25 over fields, 0.5 at a canopy."""
-    gust: Annotated[list[GustForm], Field(max_length=64)] = []
+    gust: Annotated[list[GustForm], Field(max_length=64)] = Field(default=[])
     """`[[wind.gust]]`, any number."""
-    waves: Annotated[list[WaveForm], Field(max_length=64)] = []
+    waves: Annotated[list[WaveForm], Field(max_length=64)] = Field(default=[])
     """`[[wind.waves]]`, any number."""
 
 
@@ -185,7 +179,7 @@ class CameraForm(Form):
     """The middle of the picture: x, y and height above the ground there, m."""
     fov_degrees: Annotated[float, Field(ge=1, le=170)] = 40.0
     """Vertical field of view."""
-    key: Annotated[list[KeyForm], Field(max_length=1000)] = []
+    key: Annotated[list[KeyForm], Field(max_length=1000)] = Field(default=[])
     """`[[camera.key]]`, instead of `eye` and `target`."""
 
 
@@ -216,9 +210,9 @@ class SceneForm(Form):
     """`[ground]`"""
     wind: WindForm = WindForm()
     """`[wind]`"""
-    plant: Annotated[list[PlantForm], Field(max_length=100_000)] = []
+    plant: Annotated[list[PlantForm], Field(max_length=100_000)] = Field(default=[])
     """`[[plant]]`, any number; there is at least one plant or stand."""
-    stand: Annotated[list[StandForm], Field(max_length=1000)] = []
+    stand: Annotated[list[StandForm], Field(max_length=1000)] = Field(default=[])
     """`[[stand]]`, any number."""
     camera: CameraForm
     """`[camera]`"""

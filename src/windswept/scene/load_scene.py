@@ -7,6 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from windswept.errors import InputError
+from windswept.forms.check_form import check_form
+from windswept.forms.read_toml import read_toml
+from windswept.forms.words import nearest
 from windswept.plants.species import species_names
 from windswept.scene.build_camera import build_camera
 from windswept.scene.build_wind import build_wind
@@ -14,10 +17,11 @@ from windswept.scene.form import GroundForm, SceneForm
 from windswept.scene.lone_plant import lone_plant
 from windswept.scene.place_plants import named_stream, place_plants
 from windswept.scene.plant_sources import is_path
-from windswept.scene.read_form import check_form, read_toml
 from windswept.scene.scene import Scene, sun_towards
 from windswept.scene.terrain import Terrain, flat_terrain, hilly_terrain
-from windswept.scene.words import nearest
+
+LARGEST_FILE = 16 << 20
+"""A scene file of more bytes than this is a mistake: 100,000 plants take 8 MiB."""
 
 
 def load_scene(source: str | Path, seed: int | None = None) -> Scene:
@@ -37,7 +41,7 @@ def load_scene(source: str | Path, seed: int | None = None) -> Scene:
             expected = f"a scene file or a built-in species: {nearest(source, species_names())}"
             raise InputError(source or "scene", "", None, expected)
         return lone_plant(name, seed or 0)
-    data = read_toml(Path(source))
+    data = read_toml(Path(source), LARGEST_FILE, "a scene file")
     if "growth" in data:
         return lone_plant(name, seed or 0)
     return build_scene(name, data, seed)

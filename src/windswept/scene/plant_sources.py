@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windswept.errors import InputError
+from windswept.forms.words import nearest
 from windswept.plants.species import load_species, species_names
 from windswept.scene.scene import PlantKind
-from windswept.scene.words import nearest
 
 Reals = NDArray[np.float64]
 

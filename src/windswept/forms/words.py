@@ -3,15 +3,28 @@
 from __future__ import annotations
 
 import difflib
+import reprlib
 import types
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from annotated_types import Ge, Gt, Le, MaxLen, MinLen
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+LONGEST_LINE = 120
+"""Longer texts are shortened in messages, characters."""
+MOST_NAMES = 40
+"""Longer lists of known words are cut short."""
 COUNTS = {1: "one", 2: "two", 3: "three", 4: "four"}
+
+
+@dataclass(frozen=True, slots=True)
+class Wording:
+    """Metadata of a field whose pattern is better said in words."""
+
+    words: str
 
 
 def field_words(field: FieldInfo) -> str:
@@ -24,6 +37,9 @@ def _type_words(kind: Any, limits: Sequence[Any]) -> str:
     if get_origin(kind) is Annotated:
         inner, *more = get_args(kind)
         return _type_words(inner, [*limits, *_limits(more)])
+    said = next((limit.words for limit in limits if isinstance(limit, Wording)), None)
+    if said is not None:
+        return said
     if get_origin(kind) in (Union, types.UnionType):
         given = next(item for item in get_args(kind) if item is not type(None))
         return _type_words(given, limits)
@@ -76,6 +92,29 @@ def is_list(field: FieldInfo) -> bool:
 
 
 def nearest(word: str, known: Sequence[str]) -> str:
-    """The nearest known word as the end of a sentence; all of them where none is near."""
-    near = difflib.get_close_matches(word, known, n=1)
-    return f"did you mean {near[0]}?" if near else "one of " + ", ".join(known)
+    """The nearest known word as the end of a sentence; some of them where none is near."""
+    near = difflib.get_close_matches(word[:LONGEST_LINE], known, n=1)
+    more = ", ..." if len(known) > MOST_NAMES else ""
+    return f"did you mean {near[0]}?" if near else f"one of {', '.join(known[:MOST_NAMES])}{more}"
+
+
+def shown(value: object) -> object:
+    """The value itself where it prints as a short line, else something that does."""
+    whole = repr(value)
+    return value if len(whole) <= LONGEST_LINE // 2 and whole.isprintable() else _Shortened(value)
+
+
+class _Shortened:
+    """A value whose repr is one short line."""
+
+    def __init__(self, value: object) -> None:
+        self.value = value
+
+    def __repr__(self) -> str:
+        return one_line(reprlib.repr(self.value))
+
+
+def one_line(text: str) -> str:
+    """The text without line breaks and at a length that a terminal shows."""
+    flat = " ".join(text.split())
+    return flat if len(flat) <= LONGEST_LINE else flat[: LONGEST_LINE - 3] + "..."
