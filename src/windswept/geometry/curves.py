@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -66,7 +68,7 @@ def build_geometry(plant: Plant, tolerance: float = FIT_TOLERANCE) -> Geometry:
     )
 
 
-def _leaves(plant: Plant, light: CrownLight) -> dict[str, NDArray]:
+def _leaves(plant: Plant, light: CrownLight) -> dict[str, Any]:
     return {
         "leaf_link": plant.leaf_link,
         "leaf_stem": plant.link_stem[plant.leaf_link],

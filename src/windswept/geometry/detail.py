@@ -11,9 +11,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from windswept.geometry.geometry import Geometry
 from windswept.plants.plant import Floats, Ints
+
+Doubles = NDArray[np.float64]
 
 BUCKETS = 4
 """Grids of falling fineness that stems are drawn with."""
@@ -92,7 +95,7 @@ def detail_order(geometry: Geometry) -> DetailOrder:
     return DetailOrder(order, size[order], leaf_order, length)
 
 
-def choose_detail(order: DetailOrder, pixels: Floats, rules: DetailRules) -> Detail:
+def choose_detail(order: DetailOrder, pixels: Doubles, rules: DetailRules) -> Detail:
     """Detail of every placement.
 
     Args:
@@ -100,10 +103,9 @@ def choose_detail(order: DetailOrder, pixels: Floats, rules: DetailRules) -> Det
         pixels: (P,) pixels that a metre takes where the placement stands.
         rules: what may be spent.
     """
-    scale = np.asarray(pixels, np.float64)
-    cuts = np.asarray(rules.stem_pixels) / scale[:, None]
+    cuts = np.asarray(rules.stem_pixels) / pixels[:, None]
     limit = np.searchsorted(-order.piece_size, -cuts, side="left")
-    on_screen = order.leaf_length * scale
+    on_screen = order.leaf_length * pixels
     total = len(order.leaf_order)
     least = 1.0 / rules.leaf_scale_limit**2
     full = np.clip((on_screen / rules.leaf_pixels) ** 2, least, 1.0) * total
@@ -120,7 +122,7 @@ def choose_detail(order: DetailOrder, pixels: Floats, rules: DetailRules) -> Det
     )
 
 
-def _area_scale(full: Floats, fade: Floats, total: int) -> Floats:
+def _area_scale(full: Doubles, fade: Doubles, total: int) -> Doubles:
     """(P,) scale at which ``full`` leaves and the shrinking ones after them have the area of ``total``."""
     room = np.clip((total - full) / fade, 0.0, 1.0)
     area = full + fade / 3.0 * (1.0 - (1.0 - room) ** 3)

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
+
+Doubles = NDArray[np.float64]
+Ints = NDArray[np.int32]
 
 SAMPLES_PER_LINK = 4
 """Points of the grown curve per link at which the fit is judged."""
@@ -12,7 +16,7 @@ FRAME_STEPS = 8
 
 
 @njit(cache=True)
-def grown_tangents(nodes):
+def grown_tangents(nodes: Doubles) -> Doubles:
     """Unit tangents of the smooth curve through the nodes of one stem (Catmull-Rom with chord-length knots).
 
     Args:
@@ -39,7 +43,9 @@ def grown_tangents(nodes):
 
 
 @njit(cache=True)
-def sample_grown(nodes, tangents, first, end, points, knots):
+def sample_grown(
+    nodes: Doubles, tangents: Doubles, first: int, end: int, points: Doubles, knots: Doubles
+) -> int:
     """Points of the grown curve from node ``first`` to node ``end`` with chord-length parameters in 0..1.
 
     Args:
@@ -74,7 +80,14 @@ def sample_grown(nodes, tangents, first, end, points, knots):
 
 
 @njit(cache=True)
-def fit_piece(points, knots, count, start_tangent, end_tangent, piece):
+def fit_piece(
+    points: Doubles,
+    knots: Doubles,
+    count: int,
+    start_tangent: Doubles,
+    end_tangent: Doubles,
+    piece: Doubles,
+) -> float:
     """Least-squares handle lengths of a cubic with given ends and end tangents (Schneider, Graphics Gems 1990).
 
     Args:
@@ -121,7 +134,7 @@ def fit_piece(points, knots, count, start_tangent, end_tangent, piece):
 
 
 @njit(cache=True)
-def fit_stem(nodes, tolerance, pieces, ends):
+def fit_stem(nodes: Doubles, tolerance: float, pieces: Doubles, ends: Ints) -> int:
     """Chain of as few pieces as a greedy search from the base finds, each within ``tolerance`` of the stem.
 
     Args:
@@ -159,7 +172,7 @@ def fit_stem(nodes, tolerance, pieces, ends):
 
 
 @njit(cache=True)
-def transport(piece, side):
+def transport(piece: Doubles, side: Doubles) -> Doubles:
     """Carry a side vector along a piece by double reflection (Wang et al. 2008).
 
     Args:
@@ -175,7 +188,11 @@ def transport(piece, side):
         t = step / FRAME_STEPS
         s = 1.0 - t
         ahead = s**3 * piece[0] + 3.0 * s * s * t * piece[1] + 3.0 * s * t * t * piece[2] + t**3 * piece[3]
-        heading = s * s * (piece[1] - piece[0]) + 2.0 * s * t * (piece[2] - piece[1]) + t * t * (piece[3] - piece[2])
+        heading = (
+            s * s * (piece[1] - piece[0])
+            + 2.0 * s * t * (piece[2] - piece[1])
+            + t * t * (piece[3] - piece[2])
+        )
         heading /= np.sqrt(np.sum(heading**2))
         mirror = ahead - point
         square = np.sum(mirror**2)
@@ -191,7 +208,7 @@ def transport(piece, side):
 
 
 @njit(cache=True)
-def start_side(heading, reference):
+def start_side(heading: Doubles, reference: Doubles) -> Doubles:
     """Skjermo's S0 = L0 x O, normalised; any perpendicular where the two are parallel (PHYSICS C1.2)."""
     side = np.cross(heading, reference)
     if np.sum(side**2) < 1e-6:
@@ -202,7 +219,16 @@ def start_side(heading, reference):
 
 
 @njit(cache=True)
-def fit_stems(nodes, node_start, tolerance, reference, pieces, sides, ends, counts):
+def fit_stems(
+    nodes: Doubles,
+    node_start: Ints,
+    tolerance: Doubles,
+    reference: Doubles,
+    pieces: Doubles,
+    sides: Doubles,
+    ends: Ints,
+    counts: Ints,
+) -> None:
     """Fit every stem; piece k of stem s is written to row ``node_start[s] - s + k``.
 
     Args:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -66,7 +67,7 @@ def _strip(stations: int) -> Ints:
     rows = [(2 + 3 * k, 3 + 3 * k, 4 + 3 * k) for k in range(stations)]
     left, right, middle = rows[0]
     faces = [(base, middle, left), (base, right, middle)]
-    for (l0, r0, m0), (l1, r1, m1) in zip(rows, rows[1:], strict=False):
+    for (l0, r0, m0), (l1, r1, m1) in pairwise(rows):
         faces += [(l0, m0, l1), (m0, m1, l1), (m0, r0, m1), (r0, r1, m1)]
     left, right, middle = rows[-1]
     faces += [(left, middle, tip), (middle, right, tip)]

@@ -10,6 +10,8 @@ from scipy.ndimage import gaussian_filter, map_coordinates
 
 from windswept.plants.plant import Floats, Plant
 
+Points = NDArray[np.float32] | NDArray[np.float64]
+
 CELLS = 28
 """Cells along the crown's longest side."""
 EXTINCTION = 0.5
@@ -31,20 +33,21 @@ class CrownLight:
     thinning: NDArray[np.float64]
     """(3, nx, ny, nz) direction in which leaf area falls off."""
 
-    def openness(self, points: NDArray) -> Floats:
+    def openness(self, points: Points) -> Floats:
         """(...) share of the sky seen at points (..., 3), m."""
         flat = self._cells(points)
         seen = map_coordinates(self.open, flat, order=1, mode="nearest")
         return seen.reshape(points.shape[:-1]).astype(np.float32)
 
-    def outward(self, points: NDArray) -> Floats:
+    def outward(self, points: Points) -> Floats:
         """(n, 3) unit direction out of the crown at points (n, 3), m; up where there is no telling."""
         flat = self._cells(points)
         parts = [map_coordinates(part, flat, order=1, mode="nearest") for part in self.thinning]
-        direction = np.stack(parts, axis=1) + (0.0, 0.0, 1e-9)
+        direction = np.stack(parts, axis=1)
+        direction[:, 2] += 1e-9
         return (direction / np.linalg.norm(direction, axis=1, keepdims=True)).astype(np.float32)
 
-    def _cells(self, points: NDArray) -> NDArray[np.float64]:
+    def _cells(self, points: Points) -> NDArray[np.float64]:
         return ((points.reshape(-1, 3) - self.origin) / self.cell).T
 
 
@@ -78,7 +81,9 @@ def _sky_seen(density: NDArray[np.float64], cell: float) -> NDArray[np.float64]:
     return seen / (TILTED_RAYS + 1)
 
 
-def _through(density: NDArray[np.float64], ray: tuple[float, float, float], cell: float) -> NDArray[np.float64]:
+def _through(
+    density: NDArray[np.float64], ray: tuple[float, float, float], cell: float
+) -> NDArray[np.float64]:
     """(nx, ny, nz) light that reaches each cell along a ray that rises by at most one cell in a step."""
     step = np.asarray(ray) / ray[2]
     thickness = EXTINCTION * cell * float(np.linalg.norm(step))

@@ -151,7 +151,8 @@ def _arrange(
     order = order[(seen | casts)[order]]
     rows, seen, casts, mesh = rows[order], seen[order], casts[order], mesh[order]
 
-    piece_counts = np.diff(rows["piece_limit"].astype(np.int64), axis=1, prepend=0)
+    piece_limit = rows["piece_limit"].astype(np.int64)
+    piece_counts = np.concatenate([piece_limit[:, :1], piece_limit[:, 1:] - piece_limit[:, :-1]], axis=1)
     leaf_counts = rows["leaves"][:, 0].astype(np.int64)
     by_mesh = np.where(mesh[:, None] == np.arange(LEAF_MESHES), leaf_counts[:, None], 0)
     piece_out, piece_ranges = _lay_out(piece_counts, seen, casts)
@@ -171,7 +172,8 @@ def _arrange(
 def _seen(centres: Doubles, radii: Doubles | float, view: View) -> NDArray[np.bool_]:
     """(n,) whether balls reach into the frustum."""
     inside = centres @ view.planes[:, :3].T + view.planes[:, 3]
-    return (inside > -np.broadcast_to(radii, len(centres))[:, None]).all(axis=1)
+    reach = np.broadcast_to(np.asarray(radii), len(centres))
+    return np.all(inside > -reach[:, None], axis=1)
 
 
 def _casts(centres: Doubles, radii: Doubles, view: View) -> NDArray[np.bool_]:

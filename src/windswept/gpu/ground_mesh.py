@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from windswept.gpu.frame import Ground
 from windswept.plants.plant import Floats, Ints
 
+Doubles = NDArray[np.float64]
+
 HORIZON = 6000.0
 """Half the side of the drawn ground, m."""
 FINEST = 140
@@ -44,7 +46,7 @@ def ground_mesh(ground: Ground) -> GroundMesh:
     return GroundMesh(vertices.astype(np.float32), _triangles(len(y), len(x)))
 
 
-def ground_height(ground: Ground, x: NDArray, y: NDArray) -> NDArray[np.float64]:
+def ground_height(ground: Ground, x: Doubles, y: Doubles) -> Doubles:
     """Height of the ground at x, y (arrays that broadcast), bilinear; level beyond the edge, m."""
     rows, columns = ground.height.shape
     column = np.clip((x - ground.origin[0]) / ground.spacing, 0.0, columns - 1.0)
@@ -56,7 +58,7 @@ def ground_height(ground: Ground, x: NDArray, y: NDArray) -> NDArray[np.float64]
     return (1.0 - v) * low + v * high
 
 
-def _lines(origin: float, spacing: float, count: int) -> NDArray[np.float64]:
+def _lines(origin: float, spacing: float, count: int) -> Doubles:
     """Grid lines along one axis: even over the terrain, ever wider out to the horizon."""
     inside = np.linspace(origin, origin + spacing * (count - 1), min(count, FINEST) if count > 2 else 24)
     step = inside[1] - inside[0]
@@ -64,7 +66,7 @@ def _lines(origin: float, spacing: float, count: int) -> NDArray[np.float64]:
     return np.concatenate([inside[0] - out[::-1], inside, inside[-1] + out])
 
 
-def _hills(ground: Ground, x: NDArray, y: NDArray) -> NDArray[np.float64]:
+def _hills(ground: Ground, x: Doubles, y: Doubles) -> Doubles:
     """Gentle hills that begin well beyond the terrain, m."""
     rows, columns = ground.height.shape
     middle = np.asarray(ground.origin) + 0.5 * ground.spacing * np.array([columns - 1, rows - 1])

@@ -34,9 +34,7 @@ class Lighting:
                 {"binding": 3, "visibility": DRAWING, "sampler": {"type": "filtering"}},
             ]
         )
-        shadow_sampler = device.create_sampler(
-            mag_filter="linear", min_filter="linear", compare="less-equal"
-        )
+        shadow_sampler = device.create_sampler(mag_filter="linear", min_filter="linear", compare="less-equal")
         noise_sampler = device.create_sampler(
             address_mode_u="repeat",
             address_mode_v="repeat",

@@ -67,6 +67,12 @@ def shadow_ball(camera: Camera, aspect: float, reach: float) -> tuple[Doubles, f
 
 def frustum_planes(matrix: Doubles) -> Doubles:
     """(5, 4) planes left, right, bottom, top, near; ``plane[:3] @ x + plane[3]`` is the distance inside, m."""
-    rows = [matrix[3] + matrix[0], matrix[3] - matrix[0], matrix[3] + matrix[1], matrix[3] - matrix[1], matrix[3]]
+    rows = [
+        matrix[3] + matrix[0],
+        matrix[3] - matrix[0],
+        matrix[3] + matrix[1],
+        matrix[3] - matrix[1],
+        matrix[3],
+    ]
     planes = np.stack(rows)
     return planes / np.linalg.norm(planes[:, :3], axis=1, keepdims=True)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from windswept.geometry.detail import DetailOrder, detail_order, stem_size
 from windswept.geometry.geometry import Geometry
@@ -142,6 +143,6 @@ def _ball(geometry: Geometry) -> tuple[NDArray[np.float64], float]:
     return 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))
 
 
-def _columns(*columns: NDArray | float) -> NDArray:
+def _columns(*columns: ArrayLike) -> NDArray[Any]:
     """(n, 4) array out of four columns or numbers."""
     return np.stack(np.broadcast_arrays(*columns), axis=-1)

@@ -49,11 +49,16 @@ def frame_now(simulation: Simulation, view: View | None = None) -> Frame:
     x, y = simulation.wind.mean.vector
     return Frame(
         plants=posed,
-        camera=Camera(_triple(seen.eye), _triple(seen.target), seen.fov_y),
+        camera=camera_of(seen),
         sun=_triple(scene.sun_direction),
         time=simulation.time,
         wind=(float(x), float(y)),
     )
+
+
+def camera_of(view: View) -> Camera:
+    """A scene's view as the renderer takes it."""
+    return Camera(_triple(view.eye), _triple(view.target), view.fov_y)
 
 
 def flutter(speeds: Floats) -> Floats:

@@ -91,11 +91,13 @@ def _write_webp(first: Picture, pictures: Iterable[Picture], path: Path, frame_r
     from PIL import Image
 
     images = (Image.fromarray(np.ascontiguousarray(picture[..., :3])) for picture in pictures)
-    next(images).save(
-        path,
-        save_all=True,
-        append_images=images,
-        duration=round(1000.0 / frame_rate),
-        loop=0,
-        quality=WEBP_QUALITY,
-    )
+    with path.open("wb") as file:
+        next(images).save(
+            file,
+            format="WEBP",
+            save_all=True,
+            append_images=images,
+            duration=round(1000.0 / frame_rate),
+            loop=0,
+            quality=WEBP_QUALITY,
+        )

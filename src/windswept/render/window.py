@@ -130,7 +130,9 @@ class _LiveView:
         elif 1 in event["buttons"]:
             x, y = event["x"], event["y"]
             before = self._pointer or (x, y)
-            self._orbit = self._orbit.turned(TURN_PER_PIXEL * (x - before[0]), TURN_PER_PIXEL * (y - before[1]))
+            self._orbit = self._orbit.turned(
+                TURN_PER_PIXEL * (x - before[0]), TURN_PER_PIXEL * (y - before[1])
+            )
             self._pointer = (x, y)
             return
         self._pointer = None
