@@ -10,10 +10,11 @@ import pytest
 from scipy.special import ellipeinc, ellipkinc
 
 from handmade import build_plant, random_tree, straight
-from windswept.motion import Model, Stepper, build_model, pose_links, push, rest_state
+from windswept.motion import Model, State, Stepper, build_model, finest_level, pose_links, push, rest_state
 from windswept.motion.model import TIME_STEP
 from windswept.motion.springs_plain import pose_plain, step_plain
 from windswept.plants.plant import Material
+from windswept.plants.pose import Pose
 from windswept.studies.mujoco_tree import mujoco_tree
 
 LIMP = Material(youngs_modulus=3e8, damping_ratio=0.05)
@@ -25,6 +26,15 @@ def steady(
     wind = np.zeros((placements, len(model.probe_position), 3), np.float32)
     wind[:] = speed * np.array(direction)
     return wind
+
+
+def stepped(model: Model, placements: int) -> tuple[Stepper, State]:
+    level = finest_level(model)
+    return Stepper(level), rest_state(level, placements)
+
+
+def posed(model: Model, state: State) -> Pose:
+    return pose_links(model, finest_level(model), state)
 
 
 def settle_plain(model: Model, wind: np.ndarray, force: np.ndarray, steps: int) -> np.ndarray:
@@ -45,7 +55,7 @@ def test_kernel_equals_plain_formulas(seed: int) -> None:
     model = replace(model, constants=model.constants.copy())
     model.constants[:, 29] = model.propagation
     placements, chosen = 9, 8
-    stepper, state = Stepper(model), rest_state(model, placements)
+    stepper, state = stepped(model, placements)
     angles, velocities = np.zeros((model.link_count, 2)), np.zeros((model.link_count, 2))
     for _ in range(60):
         wind = steady(model, placements, 8.0) + rng.standard_normal((placements, 1, 3)).astype(np.float32)
@@ -54,7 +64,7 @@ def test_kernel_equals_plain_formulas(seed: int) -> None:
     assert np.abs(angles).max() > 0.05
     assert np.abs(state.angles(chosen) - angles).max() < 2e-5
     rotation, position = pose_plain(model, angles)
-    pose = pose_links(model, state)
+    pose = posed(model, state)
     assert np.abs(pose.position[chosen] - position).max() < 2e-5
     turned = np.array([r.as_quat() for r in rotation])
     assert np.abs(np.abs(np.sum(turned * pose.rotation[chosen], axis=1)) - 1.0).max() < 1e-5
@@ -62,15 +72,15 @@ def test_kernel_equals_plain_formulas(seed: int) -> None:
 
 def test_calm_air_moves_nothing() -> None:
     model = build_model(random_tree(0))
-    stepper, state = Stepper(model), rest_state(model, 5)
+    stepper, state = stepped(model, 5)
     calm = steady(model, 5, 0.0)
     stepper.step(state, calm, calm, 500)
     assert not state.joints.any()
-    assert np.array_equal(pose_links(model, state).position[0], build_pose_at_rest(model))
+    assert np.array_equal(posed(model, state).position[0], build_pose_at_rest(model))
 
 
 def build_pose_at_rest(model: Model) -> np.ndarray:
-    return pose_links(model, rest_state(model, 1)).position[0]
+    return posed(model, stepped(model, 1)[1]).position[0]
 
 
 def elastica_tip(load: float) -> tuple[float, float]:
@@ -146,13 +156,13 @@ def test_damping_ratio_from_pull_and_release(ratio: float) -> None:
     # In vacuo: no leaves, hardly any air (drag coefficient 0).
     material = Material(damping_ratio=ratio, wood_drag=0.0)
     model = build_model(build_plant(straight(8.0, 12, 0.06, 0.02), material))
-    stepper, state = Stepper(model), rest_state(model, 1)
+    stepper, state = stepped(model, 1)
     push(model, state, 0, model.link_count - 1, np.array([3.0, 0.0, 0.0]))
     calm = steady(model, 1, 0.0)
     track = []
     for _ in range(3000):
         stepper.step(state, calm, calm)
-        track.append(float(pose_links(model, state).position[0, -1, 0]))
+        track.append(float(posed(model, state).position[0, -1, 0]))
     track = np.array(track)
     peaks = np.flatnonzero((track[1:-1] > track[:-2]) & (track[1:-1] > track[2:])) + 1
     decrement = np.mean(np.diff(np.log(track[peaks[:6]])))
@@ -171,11 +181,11 @@ def test_static_law_of_deflection_over_speed(exponent: float, slope: float) -> N
     material = Material(reconfiguration=exponent, reconfiguration_speed=0.5, wood_drag=0.0, damping_ratio=0.7)
     model = build_model(build_plant(stem, material))
     speeds = np.array([1.5, 3.0, 6.0, 10.0])
-    stepper, state = Stepper(model), rest_state(model, len(speeds))
+    stepper, state = stepped(model, len(speeds))
     wind = steady(model, len(speeds), 1.0) * speeds[:, None, None].astype(np.float32)
     for _ in range(40):
         stepper.step(state, wind, wind, 30)
-    tips = pose_links(model, state).position[:, -1, 0]
+    tips = posed(model, state).position[:, -1, 0]
     fitted = np.polyfit(np.log(speeds), np.log(tips), 1)[0]
     assert fitted == pytest.approx(slope, abs=0.1 if exponent == 0.0 else 0.15)
 
@@ -183,7 +193,7 @@ def test_static_law_of_deflection_over_speed(exponent: float, slope: float) -> N
 @pytest.mark.slow
 def test_ten_minutes_of_storm_stay_finite() -> None:
     model = build_model(random_tree(2, material=LIMP))
-    stepper, state = Stepper(model), rest_state(model, 8)
+    stepper, state = stepped(model, 8)
     rng = np.random.default_rng(0)
     before = steady(model, 8, 40.0)
     for _ in range(600):
@@ -199,7 +209,7 @@ def test_same_seed_same_bytes() -> None:
     model = build_model(random_tree(1))
 
     def run() -> bytes:
-        stepper, state = Stepper(model), rest_state(model, 20)
+        stepper, state = stepped(model, 20)
         wind = (
             np.random.default_rng(3).standard_normal((20, len(model.probe_position), 3)).astype(np.float32)
             * 6
@@ -212,7 +222,7 @@ def test_same_seed_same_bytes() -> None:
 
 def test_a_push_moves_only_the_way_to_the_root() -> None:
     model = build_model(random_tree(1))
-    state = rest_state(model, 2)
+    state = stepped(model, 2)[1]
     push(model, state, 1, 30, np.array([0.1, 0.0, 0.0]))
     way = {30}
     while model.skeleton.parent[min(way)] >= 0:

@@ -1,5 +1,6 @@
 """Motion models on the CPU: from a Plant to a Model, a State that steps, and the Pose it strikes."""
 
+from windswept.motion.level import Level, finest_level
 from windswept.motion.model import TIME_STEP, Model, build_model
 from windswept.motion.modes import plant_frequencies
 from windswept.motion.pose_links import pose_links
@@ -9,10 +10,12 @@ from windswept.motion.state import State, rest_state
 
 __all__ = [
     "TIME_STEP",
+    "Level",
     "Model",
     "State",
     "Stepper",
     "build_model",
+    "finest_level",
     "plant_frequencies",
     "pose_links",
     "push",

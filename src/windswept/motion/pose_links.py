@@ -6,9 +6,10 @@ import numpy as np
 from numba import njit, prange
 
 from windswept.motion.lanes import WIDTH, load, store
+from windswept.motion.level import Level
 from windswept.motion.model import ATTACH, AXIS_1, AXIS_2, OFFSET, VECTOR, Model
+from windswept.motion.registers import constant3, load3, load4, store3
 from windswept.motion.rotation import add_scaled, from_rotation_vector, multiply, rotate
-from windswept.motion.springs import constant3, load3, load4, store3
 from windswept.motion.state import State
 from windswept.plants.pose import Pose
 
@@ -18,42 +19,67 @@ _RECORD = np.uintp(10 * WIDTH)
 """Scratch of a link: joint (3), rotation (4), link vector (3)."""
 
 
-def pose_links(model: Model, state: State, ahead: float = 0.0) -> Pose:
-    """Pose of every placement.
+def pose_links(model: Model, level: Level, state: State, ahead: float = 0.0) -> Pose:
+    """Pose of all links of every placement, whatever the level that moves them.
 
     Args:
         model: the plant's constants.
+        level: what of the plant is stepped.
         state: its motion.
         ahead: seconds since the last inner step; angles go on at their velocity, so that motion is smooth at any
             frame rate.
 
     """
     pose = np.zeros((state.placement_count, model.link_count, 8), np.float32)
-    _pose_tiles(model.constants, model.skeleton.parent, state.joints, np.float32(ahead), pose)
+    _pose_tiles(
+        model.constants,
+        model.skeleton.parent,
+        level.listens,
+        level.influence,
+        state.joints.reshape(len(state.joints), -1),
+        state.groups.reshape(len(state.groups), -1),
+        np.float32(ahead),
+        pose,
+    )
     return Pose(pose)
 
 
 @njit(fastmath=True, forceinline=True)
-def _angle(joints, i, ahead):  # type: ignore[no-untyped-def]
-    return load(joints, i) + load(joints, i + _W) * ahead
+def _ahead(flat, i, rate, ahead):  # type: ignore[no-untyped-def]
+    return load(flat, i) + load(flat, i + rate) * ahead
+
+
+@njit(fastmath=True, forceinline=True)
+def _angles(listens, influence, joints, groups, ahead):  # type: ignore[no-untyped-def]
+    """Both angles of a joint: its own, or its static influence of its group's pressure."""
+    if listens >= 0:
+        at = np.uintp(listens) * _W * np.uintp(4)
+        return _ahead(joints, at, _W, ahead), _ahead(joints, at + _W + _W, _W, ahead)
+    at, rate = np.uintp(-1 - listens) * _W * np.uintp(6), _W * np.uintp(3)
+    u = (
+        _ahead(groups, at, rate, ahead),
+        _ahead(groups, at + _W, rate, ahead),
+        _ahead(groups, at + _W + _W, rate, ahead),
+    )
+    return (
+        u[0] * influence[0, 0] + u[1] * influence[0, 1] + u[2] * influence[0, 2],
+        u[0] * influence[1, 0] + u[1] * influence[1, 1] + u[2] * influence[1, 2],
+    )
 
 
 @njit(fastmath=True, parallel=True, cache=True)
-def _pose_tiles(c, parent, joints, ahead, pose):  # type: ignore[no-untyped-def]
+def _pose_tiles(c, parent, listens, influence, joints, groups, ahead, pose):  # type: ignore[no-untyped-def]
     tiles, count = joints.shape[0], len(parent)
     for tile in prange(tiles):
         a = np.zeros((count + 1) * 10 * WIDTH, np.float32)
         a[6 * WIDTH : 7 * WIDTH] = _F(1.0)
-        angles = joints[tile].reshape(-1)
         placements = min(WIDTH, len(pose) - tile * WIDTH)
         for i in range(count):
             link = np.uintp(i)
             above = np.uintp(parent[i] + 1) * _RECORD
             here = (link + np.uintp(1)) * _RECORD
-            joint = link * np.uintp(4 * WIDTH)
             first, second = constant3(c, link, AXIS_1), constant3(c, link, AXIS_2)
-            angle_1 = _angle(angles, joint, ahead)
-            angle_2 = _angle(angles, joint + _W + _W, ahead)
+            angle_1, angle_2 = _angles(listens[i], influence[i], joints[tile], groups[tile], ahead)
             turn = (
                 angle_1 * first[0] + angle_2 * second[0],
                 angle_1 * first[1] + angle_2 * second[1],

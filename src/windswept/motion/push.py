@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from windswept.motion.level import finest_level
 from windswept.motion.model import Model
 from windswept.motion.pose_links import pose_links
 from windswept.motion.rods import Doubles
@@ -13,7 +14,7 @@ from windswept.motion.state import State
 def push(
     model: Model, state: State, placement: int, link: int, impulse: Doubles, along: float = 1.0
 ) -> State:
-    """Adds an impulse to one link of one placement; all joints between it and the root take their part.
+    """Adds an impulse to one link of one placement at level 0; all joints between it and the root take their part.
 
     Args:
         model: the plant's constants.
@@ -24,7 +25,7 @@ def push(
         along: where on the link, 0 at its base, 1 at its tip.
 
     """
-    pose = pose_links(model, state)
+    pose = pose_links(model, finest_level(model), state)
     position, rotation = pose.position[placement], pose.rotation[placement].astype(np.float64)
     skeleton = model.skeleton
     struck = position[link] + along * turn(rotation[link], skeleton.vector[link])

@@ -18,7 +18,9 @@ import numpy as np
 from numba import get_num_threads, get_thread_id, njit, prange
 
 from windswept.motion.drag import reconfiguration
+from windswept.motion.groups import air_of_group, swing_group
 from windswept.motion.lanes import WIDTH, clamped, load, settled, sqrt, store
+from windswept.motion.level import Level
 from windswept.motion.model import (
     ATTACH,
     AXIS_1,
@@ -37,8 +39,8 @@ from windswept.motion.model import (
     STEP_XV,
     STEP_XX,
     VECTOR,
-    Model,
 )
+from windswept.motion.registers import constant3, load3, load4, store3
 from windswept.motion.rotation import (
     add_scaled,
     cross,
@@ -70,33 +72,6 @@ _TINY = _F(1e-30)
 
 
 @njit(fastmath=True, forceinline=True)
-def load3(a, i):  # type: ignore[no-untyped-def]
-    """Three consecutive registers."""
-    return load(a, i), load(a, i + _W), load(a, i + _W + _W)
-
-
-@njit(fastmath=True, forceinline=True)
-def store3(a, i, v):  # type: ignore[no-untyped-def]
-    """Writes three consecutive registers."""
-    store(a, i, v[0])
-    store(a, i + _W, v[1])
-    store(a, i + _W + _W, v[2])
-
-
-@njit(fastmath=True, forceinline=True)
-def load4(a, i):  # type: ignore[no-untyped-def]
-    """Four consecutive registers."""
-    v = load3(a, i)
-    return v[0], v[1], v[2], load(a, i + _W * np.uintp(3))
-
-
-@njit(fastmath=True, forceinline=True)
-def constant3(constants, link, column):  # type: ignore[no-untyped-def]
-    """Three columns of a link's constants."""
-    return constants[link, column], constants[link, column + 1], constants[link, column + 2]
-
-
-@njit(fastmath=True, forceinline=True)
 def drag_force(c, link, wind, v, d):  # type: ignore[no-untyped-def]
     """Force on a link: wind (velocity and leaf reconfiguration), velocity v of the drag centre, link vector d."""
     u = add_scaled(wind, v, _F(-1.0))
@@ -124,8 +99,15 @@ def oscillate(c, link, torque, angle, velocity, compliance):  # type: ignore[no-
 
 
 @njit(fastmath=True, forceinline=True)
-def _pose_and_drag(c, depth, probe, joints, wind, a, slots):  # type: ignore[no-untyped-def]
-    """Root to leaf: writes rotation, place, force and moment of every link into the scratch ``a``."""
+def _pose_and_drag(  # type: ignore[no-untyped-def]
+    c, depth, probe, g, group_start, group_probe, joints, groups, wind, a, slots
+):
+    """Root to leaf: swings the groups; writes rotation, place, force and moment of every link into ``a``."""
+    zero = load(wind, np.uintp(0)) * _F(0.0)
+    still = (zero, zero, zero)
+    for k in range(group_start[0], group_start[1]):
+        ground = ((zero, zero, zero, zero + _F(1.0)), still, still, still)
+        swing_group(g, k, air_of_group(wind, group_probe[k]), groups, ground)
     one, three, six, nine = _W, _W * np.uintp(3), _W * np.uintp(6), _W * np.uintp(9)
     four, seven, ten = _W * np.uintp(4), _W * np.uintp(7), _W * np.uintp(10)
     for i in range(len(depth)):
@@ -162,12 +144,17 @@ def _pose_and_drag(c, depth, probe, joints, wind, a, slots):  # type: ignore[no-
         store3(a, here + nine, d_rate)
         air = load4(wind, np.uintp(probe[link, 0]) * four)
         force = drag_force(c, link, air, add_scaled(v, d_rate, c[link, DRAG_CENTRE]), d)
+        moment = cross(add_scaled(x, d, c[link, DRAG_CENTRE]), force)
+        for k in range(group_start[i + 1], group_start[i + 2]):
+            on_group = swing_group(g, k, air_of_group(wind, group_probe[k]), groups, (q, x, spin, v))
+            force = add_scaled(force, on_group[0], _F(1.0))
+            moment = add_scaled(moment, on_group[1], _F(1.0))
         record = (link + np.uintp(1)) * _RECORD
         store3(a, record, q)
         store(a, record + three, q[3])
         store3(a, record + four, x)
         store3(a, record + seven, force)
-        store3(a, record + ten, cross(add_scaled(x, d, c[link, DRAG_CENTRE]), force))
+        store3(a, record + ten, moment)
 
 
 @njit(fastmath=True, forceinline=True)
@@ -213,7 +200,22 @@ def _load_and_swing(c, depth, probe, joints, a, sums):  # type: ignore[no-untype
 
 
 @njit(fastmath=True, parallel=True, cache=True)
-def _step_tiles(c, depth, probe, joints, wind, scratch, sum_start, first, last, interval):  # type: ignore[no-untyped-def]
+def _step_tiles(  # type: ignore[no-untyped-def]
+    c,
+    depth,
+    probe,
+    g,
+    group_start,
+    group_probe,
+    joints,
+    groups,
+    wind,
+    scratch,
+    sum_start,
+    first,
+    last,
+    interval,
+):
     """Inner steps first..last of an interval over which the wind goes linearly from wind[t, 0] to wind[t, 1]."""
     slots = np.uintp(len(depth) + 1) * _RECORD
     sums = np.uintp(sum_start)
@@ -223,29 +225,29 @@ def _step_tiles(c, depth, probe, joints, wind, scratch, sum_start, first, last, 
         for step in range(first, last):
             late = _F((step + 1.0) / interval)
             now[:] = wind[tile, 0] + late * (wind[tile, 1] - wind[tile, 0])
-            _pose_and_drag(c, depth, probe, joints[tile], now, a, slots)
+            _pose_and_drag(
+                c, depth, probe, g, group_start, group_probe, joints[tile], groups[tile], now, a, slots
+            )
             _load_and_swing(c, depth, probe, joints[tile], a, sums)
 
 
-def _scratch(model: Model) -> tuple[Floats, int]:
+def _scratch(level: Level) -> tuple[Floats, int]:
     """Per-thread scratch with the ground's record and slot at rest, and where the sums begin."""
-    depths = int(model.skeleton.depth.max()) + 3
-    sum_start = (model.link_count + 1) * int(_RECORD) + depths * int(_SLOT)
-    size = sum_start + depths * int(_SUM) + 4 * len(model.probe_position) * WIDTH
+    depths = int(level.depth.max(initial=0)) + 3
+    sum_start = (level.link_count + 1) * int(_RECORD) + depths * int(_SLOT)
+    size = sum_start + depths * int(_SUM) + 4 * len(level.probe_position) * WIDTH
     scratch = np.zeros((get_num_threads(), size), np.float32)
     scratch[:, 3 * WIDTH : 4 * WIDTH] = 1.0
     return scratch, sum_start
 
 
 class Stepper:
-    """Steps states of one model; owns the scratch memory that the kernel works in."""
+    """Steps states of one level; owns the scratch memory that the kernel works in."""
 
-    def __init__(self, model: Model) -> None:
-        self.model = model
-        self._probe_and_parent: Ints = np.column_stack([model.link_probe, model.skeleton.parent + 1]).astype(
-            np.int32
-        )
-        self._scratch, self._sum_start = _scratch(model)
+    def __init__(self, level: Level) -> None:
+        self.level = level
+        self._probe_and_parent: Ints = np.column_stack([level.probe, level.parent + 1]).astype(np.int32)
+        self._scratch, self._sum_start = _scratch(level)
 
     def step(
         self,
@@ -256,7 +258,7 @@ class Stepper:
         taken: int = 0,
         interval: int | None = None,
     ) -> State:
-        """Advances a state by ``substeps`` inner steps, each ``model.time_step`` long.
+        """Advances a state by ``substeps`` inner steps, each ``level.time_step`` long.
 
         The winds are those at the two ends of an interval of ``interval`` inner steps, of which ``taken`` were
         stepped before; in between the wind changes linearly.
@@ -269,12 +271,17 @@ class Stepper:
             taken: number of the interval's steps taken earlier.
             interval: number of inner steps between the two winds; None for ``substeps``.
         """
-        wind = np.stack([pack_wind(self.model, wind_before), pack_wind(self.model, wind_after)], axis=1)
+        level, tiles = self.level, len(state.joints)
+        wind = np.stack([pack_wind(level, wind_before), pack_wind(level, wind_after)], axis=1)
         _step_tiles(
-            self.model.constants,
-            self.model.skeleton.depth,
+            level.constants,
+            level.depth,
             self._probe_and_parent,
-            state.joints.reshape(len(state.joints), -1),
+            level.group_constants,
+            level.group_start,
+            level.group_probe,
+            state.joints.reshape(tiles, -1),
+            state.groups.reshape(tiles, -1),
             wind,
             self._scratch,
             self._sum_start,
@@ -286,12 +293,12 @@ class Stepper:
         return state
 
 
-def pack_wind(model: Model, wind: Floats) -> Floats:
+def pack_wind(level: Level, wind: Floats) -> Floats:
     """(T, B * 4 * WIDTH) probe winds as the kernel reads them: velocity and leaf reconfiguration, lanes fastest."""
     placements, probes, _ = wind.shape
     tiles = -(-placements // WIDTH)
     packed = np.zeros((tiles * WIDTH, probes, 4), np.float32)
     packed[:placements, :, :3] = wind
-    packed[:placements, :, 3] = reconfiguration(model.material, np.linalg.norm(wind, axis=2))
+    packed[:placements, :, 3] = reconfiguration(level.material, np.linalg.norm(wind, axis=2))
     lanes_last = packed.reshape(tiles, WIDTH, probes, 4).transpose(0, 2, 3, 1)
     return np.ascontiguousarray(lanes_last).reshape(tiles, -1)

@@ -1,4 +1,4 @@
-"""What moves: joint angles and velocities of P placements of one plant."""
+"""What moves: joint angles and velocities of P placements of one plant at one simulation level."""
 
 from __future__ import annotations
 
@@ -7,37 +7,46 @@ from dataclasses import dataclass
 import numpy as np
 
 from windswept.motion.lanes import WIDTH
-from windswept.motion.model import Model
+from windswept.motion.level import Level
 from windswept.plants.plant import Floats
 
 
 @dataclass(slots=True)
 class State:
-    """Motion of P placements of one plant with L links. Stepped in place."""
+    """Motion of P placements of one plant, at a level with A active links and G groups. Stepped in place."""
 
     joints: Floats
-    """(T, L, 4, WIDTH) tiles of WIDTH placements: angle and velocity about axis 1, then axis 2; rad, rad/s."""
+    """(T, A, 4, WIDTH) tiles of WIDTH placements: angle and velocity about axis 1, then axis 2; rad, rad/s."""
+    groups: Floats
+    """(T, G, 6, WIDTH) pressure u (3) of every group and its rate (3); (m/s)^2 and (m/s)^2/s."""
     placement_count: int
     """P; the last tile's spare lanes move unseen."""
     step_count: int = 0
     """Inner steps taken since rest."""
 
     def angles(self, placement: int) -> Floats:
-        """(L, 2) joint angles of one placement, rad."""
+        """(A, 2) joint angles of one placement, rad."""
         return self.joints[placement // WIDTH, :, ::2, placement % WIDTH]
 
     def velocities(self, placement: int) -> Floats:
-        """(L, 2) joint velocities of one placement, rad/s."""
+        """(A, 2) joint velocities of one placement, rad/s."""
         return self.joints[placement // WIDTH, :, 1::2, placement % WIDTH]
 
+    def pressures(self, placement: int) -> Floats:
+        """(G, 2, 3) pressure of every group of one placement and its rate."""
+        return self.groups[placement // WIDTH, :, :, placement % WIDTH].reshape(-1, 2, 3)
 
-def rest_state(model: Model, placement_count: int) -> State:
+
+def rest_state(level: Level, placement_count: int) -> State:
     """State of plants at rest.
 
     Args:
-        model: their model.
+        level: what of the plant is stepped.
         placement_count: P.
-
     """
     tiles = -(-placement_count // WIDTH)
-    return State(np.zeros((tiles, model.link_count, 4, WIDTH), np.float32), placement_count)
+    return State(
+        np.zeros((tiles, level.link_count, 4, WIDTH), np.float32),
+        np.zeros((tiles, level.group_count, 6, WIDTH), np.float32),
+        placement_count,
+    )

@@ -8,7 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from windswept.motion import TIME_STEP, Model, State, Stepper, build_model, pose_links, rest_state
+from windswept.motion import (
+    TIME_STEP,
+    Level,
+    Model,
+    State,
+    Stepper,
+    build_model,
+    finest_level,
+    pose_links,
+    rest_state,
+)
 from windswept.plants.plant import Floats, Plant
 from windswept.plants.pose import Pose
 from windswept.scene.grow_kinds import grow_kinds
@@ -40,6 +50,7 @@ class MovingKind:
     plant: Plant
     placements: Placements
     model: Model
+    level: Level
     state: State
     stepper: Stepper
     probes: Probes
@@ -93,7 +104,7 @@ class Simulation:
     def pose(self) -> list[Pose]:
         """Where every link of every kind is at this moment, in the plants' own frames."""
         ahead = self.time - self.step_count * TIME_STEP
-        return [pose_links(kind.model, kind.state, ahead) for kind in self.kinds]
+        return [pose_links(kind.model, kind.level, kind.state, ahead) for kind in self.kinds]
 
     @property
     def wind_speeds(self) -> list[Floats]:
@@ -119,15 +130,15 @@ class Simulation:
 def compile_kind(plant: Plant, placements: Placements, terrain: Terrain) -> MovingKind:
     """Model, resting State and probes of all placements of one plant."""
     model = build_model(plant)
-    state = rest_state(model, placements.count)
-    return MovingKind(
-        plant, placements, model, state, Stepper(model), place_probes(model, placements, terrain)
-    )
+    level = finest_level(model)
+    state = rest_state(level, placements.count)
+    probes = place_probes(level, placements, terrain)
+    return MovingKind(plant, placements, model, level, state, Stepper(level), probes)
 
 
-def place_probes(model: Model, placements: Placements, terrain: Terrain) -> Probes:
+def place_probes(level: Level, placements: Placements, terrain: Terrain) -> Probes:
     """World positions and heights above ground of every placement's probes."""
-    local = model.probe_position
+    local = level.probe_position
     turned = turn_about_z(np.broadcast_to(local, (placements.count, *local.shape)), placements.yaw)
     world = (turned + placements.position[:, None, :]).reshape(-1, 3).astype(np.float32)
     height = world[:, 2] - terrain.height(world[:, 0], world[:, 1])

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from windswept.motion import Model, Stepper, build_model, rest_state
+from windswept.motion import Model, Stepper, build_model, finest_level, rest_state
 from windswept.motion.lanes import WIDTH
 from windswept.motion.model import CONSTANT_COUNT
 from windswept.studies.bench_plants import plant_with_links
@@ -46,7 +46,8 @@ def bench_springs(say: Callable[[str], None] = lambda line: None) -> dict[str, f
 
 def seconds_per_step(model: Model, placements: int) -> float:
     """Median wall time of one inner step of all placements in turbulent wind, s."""
-    stepper, state = Stepper(model), rest_state(model, placements)
+    level = finest_level(model)
+    stepper, state = Stepper(level), rest_state(level, placements)
     rng = np.random.default_rng(0)
     shape = (placements, len(model.probe_position), 3)
     wind = rng.normal((6.0, 0.0, 0.0), 2.0, shape).astype(np.float32)

@@ -1,0 +1,83 @@
+"""What of a plant is stepped: all its links, or some of them and groups of branches that move together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from windswept.motion.model import Model
+from windswept.plants.plant import Floats, Ints, Material
+
+GROUP_CONSTANT_COUNT = 40
+"""Columns of ``Level.group_constants``; the kernel reads them by the numbers below."""
+CENTRE, FORCE, COUPLE, SWAY = 0, 3, 12, 21
+LEAF_FACTOR, WOOD_FACTOR, GROUP_MOBILITY, GROUP_STEP = 30, 31, 32, 33
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """One simulation level of a plant with L links: A active links, G groups, B wind probes.
+
+    A *group* is a set of branches on one link (or on the ground) that share one oscillator: a pressure vector u(t)
+    in (m/s)^2, in the frame of the link that carries them, that follows the wind's pressure with the group's
+    frequency and damping. Every joint of the group turns by its own static influence of u.
+    """
+
+    material: Material
+    time_step: float
+    """s"""
+    link: Ints
+    """(A,) which link of the plant each active link is, ascending."""
+    parent: Ints
+    """(A,) active parent, -1 at a root."""
+    depth: Ints
+    """(A,) links between this one and the root."""
+    constants: Floats
+    """(A, CONSTANT_COUNT) see model.py."""
+    probe: Ints
+    """(A,) wind probe of each active link."""
+    probe_position: Floats
+    """(B, 3) m."""
+    group_start: Ints
+    """(A + 2,) groups on the ground are the range from [0] to [1], those on active link a from [a + 1] to [a + 2]."""
+    group_constants: Floats
+    """(G, GROUP_CONSTANT_COUNT) centre of pressure from the carrier's joint (3, m), force and couple per pressure
+    (3 x 3 each, row by row), sway of the centre per pressure (3 x 3), factors of leaf and wood, mobility, step (4)."""
+    group_probe: Ints
+    """(G,) wind probe of each group."""
+    listens: Ints
+    """(L,) what turns each joint of the plant: active link a >= 0, or group g as -1 - g."""
+    influence: Floats
+    """(L, 2, 3) angle about each joint axis per unit of its group's u, rad s^2/m^2."""
+
+    @property
+    def link_count(self) -> int:
+        """Number of active links, A."""
+        return len(self.link)
+
+    @property
+    def group_count(self) -> int:
+        """Number of groups, G."""
+        return len(self.group_probe)
+
+
+def finest_level(model: Model) -> Level:
+    """Level 0: every link is stepped."""
+    count = model.link_count
+    links = np.arange(count, dtype=np.int32)
+    return Level(
+        material=model.material,
+        time_step=model.time_step,
+        link=links,
+        parent=model.skeleton.parent,
+        depth=model.skeleton.depth,
+        constants=model.constants,
+        probe=model.link_probe,
+        probe_position=model.probe_position,
+        group_start=np.zeros(count + 2, np.int32),
+        group_constants=np.zeros((0, GROUP_CONSTANT_COUNT), np.float32),
+        group_probe=np.zeros(0, np.int32),
+        listens=links,
+        influence=np.zeros((count, 2, 3), np.float32),
+    )

@@ -1,0 +1,37 @@
+"""Vectors of Lanes in flat arrays, component after component."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from windswept.motion.lanes import WIDTH, load, store
+
+_W = np.uintp(WIDTH)
+
+
+@njit(fastmath=True, forceinline=True)
+def load3(a, i):  # type: ignore[no-untyped-def]
+    """Three consecutive registers."""
+    return load(a, i), load(a, i + _W), load(a, i + _W + _W)
+
+
+@njit(fastmath=True, forceinline=True)
+def store3(a, i, v):  # type: ignore[no-untyped-def]
+    """Writes three consecutive registers."""
+    store(a, i, v[0])
+    store(a, i + _W, v[1])
+    store(a, i + _W + _W, v[2])
+
+
+@njit(fastmath=True, forceinline=True)
+def load4(a, i):  # type: ignore[no-untyped-def]
+    """Four consecutive registers."""
+    v = load3(a, i)
+    return v[0], v[1], v[2], load(a, i + _W * np.uintp(3))
+
+
+@njit(fastmath=True, forceinline=True)
+def constant3(constants, link, column):  # type: ignore[no-untyped-def]
+    """Three columns of a link's constants."""
+    return constants[link, column], constants[link, column + 1], constants[link, column + 2]
