@@ -27,6 +27,8 @@ class Daylight:
     """(3,) on a surface that faces up."""
     haze: Doubles
     """(3,) of the horizon."""
+    exposure: float
+    """Factor on all light before tone mapping: an eye opens as the sun goes down."""
 
 
 def daylight(sun: Doubles) -> Daylight:
@@ -37,7 +39,7 @@ def daylight(sun: Doubles) -> Daylight:
     air_mass = 1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364)
     risen = np.clip(elevation / 4.0 + 0.5, 0.0, 1.0)
     light = risen * SUN_ABOVE_AIR * np.exp(-OPTICAL_DEPTH * air_mass)
-    bright = 0.12 + 0.88 * np.clip(sun[2] * 1.6, 0.0, 1.0)
+    bright = 0.15 + 0.85 * np.clip(sun[2] * 1.6, 0.0, 1.0) ** 0.8
     sky = bright * np.array([0.78, 0.92, 1.18])
-    haze = bright * np.array([0.70, 0.80, 0.92]) + 0.05 * light
-    return Daylight(light, sky, haze)
+    haze = bright * np.array([0.70, 0.80, 0.92]) + 0.06 * light
+    return Daylight(light, sky, haze, float(0.95 - 0.33 * np.clip(sun[2] * 1.6, 0.0, 1.0)))

@@ -28,8 +28,8 @@ from windswept.plants.plant import Plant
 
 SAMPLES = 4
 """Of a pixel (MSAA)."""
-SHADOW_REACH = 55.0
-"""Distance from the camera to which shadows are drawn, m."""
+SHADOW_REACH = (20.0, 120.0)
+"""Least and greatest distance from the camera to which shadows are drawn, m; twice that of its target if between."""
 PICTURE_FORMAT = "rgba8unorm-srgb"
 
 
@@ -126,6 +126,11 @@ class Renderer:
         self._device.queue.submit([encoder.finish()])
         return wanted
 
+    def drawn_counts(self, frame: Frame) -> tuple[int, int]:
+        """Stem pieces and leaves that a frame's detail comes to, shadows' own included."""
+        wanted = draw_list(self.kinds, frame.plants, self._look(frame)[0], self._rules)
+        return wanted.piece_count, wanted.leaf_count
+
     def _encode_shadows(self, encoder: Any, wanted: DrawList) -> None:
         render_pass = encoder.begin_render_pass(
             color_attachments=[],
@@ -171,7 +176,9 @@ class Renderer:
         sun = np.asarray(frame.sun, np.float64)
         sun = sun / np.linalg.norm(sun)
         camera = camera_matrix(frame.camera, width / height)
-        centre, radius = shadow_ball(frame.camera, width / height, SHADOW_REACH)
+        to_target = float(np.linalg.norm(np.subtract(frame.camera.target, frame.camera.eye)))
+        reach = float(np.clip(2.0 * to_target, *SHADOW_REACH))
+        centre, radius = shadow_ball(frame.camera, width / height, reach)
         light = daylight(sun)
         rows = np.zeros(1, layouts.FRAME)
         rows["view_projection"] = camera.T
@@ -179,7 +186,7 @@ class Renderer:
         rows["sun_projection"] = sun_matrix(sun, centre, radius, 6.0 * radius, SHADOW_TEXELS).T
         rows["eye"] = *frame.camera.eye, frame.time
         rows["sun"] = *sun, 2.0 * radius / SHADOW_TEXELS
-        rows["sun_light"] = *light.sun, 0.0
+        rows["sun_light"] = *light.sun, light.exposure
         rows["sky_light"] = *light.sky, 0.0
         rows["haze"] = *light.haze, EXTINCTION
         rows["wind"] = *frame.wind, frame.wind[0] * frame.time, frame.wind[1] * frame.time

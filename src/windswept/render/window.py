@@ -65,7 +65,7 @@ def show_window(
     Raises:
         GraphicsError: no display, no adapter, or the ``view`` extra is not installed.
     """
-    _require_display()
+    require_display()
     try:
         from rendercanvas.glfw import RenderCanvas, loop
         from wgpu.utils.imgui import ImguiRenderer
@@ -90,7 +90,7 @@ def show_window(
     loop.run()
 
 
-def _require_display() -> None:
+def require_display() -> None:
     """Refuse early: without a display the window library would abort the process."""
     names = ("DISPLAY", "WAYLAND_DISPLAY")
     if os.name == "posix" and os.uname().sysname == "Linux" and not any(os.environ.get(n) for n in names):

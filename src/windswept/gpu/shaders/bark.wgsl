@@ -21,7 +21,7 @@ struct Bark {
     @location(0) world: vec3f,
     @location(1) normal: vec3f,
     @location(2) grain: vec2f,   // turns round the stem in texture widths, metres along it
-    @location(3) shade: vec3f,   // openness, height above the stem's foot in m, a random number
+    @location(3) shade: vec4f,   // openness, height above a trunk's foot in m, radius in m, a random number
     @location(4) @interpolate(flat) look: u32,
 }
 
@@ -120,8 +120,9 @@ fn posed_vertex(vertex: u32, instance: u32) -> Bark {
     out.clip = frame.view_projection * vec4f(point.position, 1.0);
     out.world = point.position;
     out.normal = point.normal;
-    out.grain = vec2f(at.turn * max(1.0, round(girth / 0.45)), span * stem.attach.z / 1.6 + 7.3 * piece.side1.w);
-    out.shade = vec3f(mix(piece.p2.w, piece.p3.w, at.t), span * stem.attach.z, fract(piece.side1.w * 3.7));
+    let foot = select(1e3, span * stem.attach.z, stem.rows.x == NONE);
+    out.grain = vec2f(at.turn * max(1.0, round(girth / 0.8)), span * stem.attach.z / 2.6 + 7.3 * piece.side1.w);
+    out.shade = vec4f(mix(piece.p2.w, piece.p3.w, at.t), foot, profile(stem, span).x, fract(piece.side1.w * 3.7));
     out.look = piece.rows.y;
     return out;
 }
@@ -154,16 +155,24 @@ fn bumped(normal: vec3f, world: vec3f, height: f32) -> vec3f {
 @fragment
 fn fragment(in: Bark) -> @location(0) vec4f {
     let look = looks[in.look];
-    let furrow = noise(in.grain).b;
+    let coarse = noise(in.grain).b;
+    let fine = noise(in.grain * 3.0 + 0.4).b;
     let broad = noise(in.grain * vec2f(0.5, 0.23) + 0.37).r;
-    let relief = look.bark.w;
-    let near = clamp(12.0 / distance(in.world, frame.eye.xyz) - 0.3, 0.0, 1.0);
-    let normal = bumped(normalize(in.normal), in.world, near * relief * 0.03 * furrow);
+    let scars = noise(in.grain * vec2f(0.6, 3.1)).g;
+    // Bark breaks up as stems grow thick; twigs are smooth.
+    let relief = look.bark.w * smoothstep(0.015, 0.12, in.shade.z);
+    let furrow = mix(coarse, fine, 0.35);
+    let near = clamp(14.0 / distance(in.world, frame.eye.xyz) - 0.3, 0.0, 1.0);
+    let normal = bumped(normalize(in.normal), in.world, near * relief * 0.05 * furrow);
 
-    let crevice = mix(1.0, 0.35 + 0.9 * furrow, 0.35 + 0.65 * relief);
-    var albedo = look.bark.rgb * crevice * (0.75 + 0.5 * broad);
+    let foot = smoothstep(-0.1, 0.9, in.shade.y + 0.5 * broad);
+    let pale = smoothstep(0.30, 0.45, dot(look.bark.rgb, vec3f(0.333)));
+    var albedo = look.bark.rgb * mix(1.0, 0.30 + 1.0 * furrow, 0.25 + 0.75 * relief) * (0.72 + 0.5 * broad);
+    albedo *= 1.0 - 0.75 * pale * smoothstep(0.66, 0.76, scars) * smoothstep(0.02, 0.06, in.shade.z);
+    albedo = mix(mix(albedo * 0.6, vec3f(0.055, 0.065, 0.025), 0.5 * broad), albedo, foot);
+
     let direct = max(dot(normal, frame.sun.xyz), 0.0);
-    var light = ambient(normal) * (0.25 + 0.75 * in.shade.x) * (0.6 + 0.4 * furrow);
+    var light = ambient(normal) * (0.25 + 0.75 * in.shade.x) * (0.6 + 0.4 * furrow) * (0.5 + 0.5 * foot);
     if direct > 0.0 { light += frame.sun_light.rgb * direct * sunlight(in.world, in.normal); }
     return finished(albedo * light, in.world);
 }
@@ -175,7 +184,7 @@ fn vertex_lit(@builtin(vertex_index) vertex: u32, @builtin(instance_index) insta
     let direct = max(dot(in.normal, frame.sun.xyz), 0.0);
     let sun = frame.sun_light.rgb * direct * sunlight_once(in.world, in.normal);
     let light = sun + ambient(in.normal) * (0.25 + 0.75 * in.shade.x);
-    let albedo = looks[in.look].bark.rgb * (0.7 + 0.4 * in.shade.z);
+    let albedo = looks[in.look].bark.rgb * (0.7 + 0.4 * in.shade.w);
     return LitVertex(in.clip, finished(albedo * light, in.world).rgb);
 }
 

@@ -57,19 +57,19 @@ fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance:
         out.world = head + spread.x * vec3f(across, 0.0) + spread.y * cross(up, vec3f(across, 0.0));
     }
     out.clip = frame.view_projection * vec4f(out.world, 1.0);
-    out.normal = normalize(vec3f(0.6 * (chance.xy - 0.5) + 0.4 * bend / max(tall, 0.01), 1.0));
+    out.normal = normalize(vec3f(0.3 * (chance.xy - 0.5) + 0.15 * bend / max(tall, 0.01), 1.0));
 
-    let straw = mix(here.colour * 1.5, vec3f(0.22, 0.18, 0.075), 0.55 * here.dryness * chance.x);
-    let shaded = mix(here.colour * 0.35, straw, rise * (0.6 + 0.4 * chance.y));
+    let straw = mix(here.colour * 1.7, vec3f(0.22, 0.18, 0.075), 0.55 * here.dryness * chance.x);
+    let shaded = mix(here.colour * 0.5, straw, rise * (0.6 + 0.4 * chance.y));
     out.colour = select(shaded, petal_colour(root.xy, chance.y), flower);
     return out;
 }
 
 @fragment
 fn fragment(in: BladeVertex) -> @location(0) vec4f {
-    let direct = max(dot(in.normal, frame.sun.xyz), 0.0);
+    let direct = caught_by_blades(max(dot(in.normal, frame.sun.xyz), 0.05));
     let towards = normalize(in.world - frame.eye.xyz);
-    let through = 0.8 * pow(max(dot(towards, frame.sun.xyz), 0.0), 3.0);
+    let through = 0.7 * pow(max(dot(towards, frame.sun.xyz), 0.0), 3.0);
     let light = frame.sun_light.rgb * (direct + through) * sunlight_once(in.world, in.normal) + ambient(in.normal) * 0.8;
     return finished(in.colour * light, in.world);
 }

@@ -27,7 +27,7 @@ fn fragment(in: Ground) -> @location(0) vec4f {
     albedo = mix(albedo, vec3f(0.022, 0.040, 0.016), wood);
 
     let normal = normalize(in.normal);
-    let direct = max(dot(normal, frame.sun.xyz), 0.0);
+    let direct = caught_by_blades(dot(normal, frame.sun.xyz));
     let light = frame.sun_light.rgb * direct * sunlight(in.world, normal) + ambient(normal) * (0.6 + 0.3 * far);
     return finished(albedo * light, in.world);
 }

@@ -14,7 +14,7 @@ struct LeafVertex {
     @location(0) world: vec3f,
     @location(1) normal: vec3f,
     @location(2) outward: vec3f,
-    @location(3) shade: vec2f,   // openness, random number
+    @location(3) shade: vec4f,   // openness, random number, place across and along the blade
     @location(4) @interpolate(flat) look: u32,
 }
 
@@ -46,7 +46,7 @@ fn posed_vertex(vertex: u32, instance: u32) -> LeafVertex {
     out.clip = frame.view_projection * vec4f(out.world, 1.0);
     out.normal = facing.x * across + facing.y * leaf.axis.xyz + facing.z * leaf.normal.xyz;
     out.outward = leaf.outward.xyz;
-    out.shade = vec2f(leaf.normal.w, leaf.outward.w);
+    out.shade = vec4f(leaf.normal.w, leaf.outward.w, blade[row].xy);
     out.look = leaf.rows.x;
     return out;
 }
@@ -83,7 +83,11 @@ fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance:
 
 @fragment
 fn fragment(in: LeafVertex, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    return finished(leaf_colour(in, front), in.world);
+    let aside = abs(in.shade.z);
+    let midrib = smoothstep(0.035, 0.010, aside);
+    let ribs = 0.5 + 0.5 * cos(48.0 * (in.shade.w - 0.9 * aside));
+    let veins = 1.0 + 0.22 * midrib - 0.10 * ribs * ribs * smoothstep(0.02, 0.2, aside);
+    return finished(leaf_colour(in, front) * veins, in.world);
 }
 
 // Leaves of a few pixels are lit at their vertices.

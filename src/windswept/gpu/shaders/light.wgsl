@@ -66,7 +66,8 @@ fn hazed(colour: vec3f, world: vec3f) -> vec3f {
 
 // Filmic curve (Narkowicz 2015, a fit of the ACES reference), linear in, linear out.
 fn tone_mapped(colour: vec3f) -> vec3f {
-    let c = colour * 0.62;
+    let bright = colour * frame.sun_light.w;
+    let c = mix(vec3f(dot(bright, vec3f(0.2126, 0.7152, 0.0722))), bright, 0.9);
     return clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), vec3f(0.0), vec3f(1.0));
 }
 

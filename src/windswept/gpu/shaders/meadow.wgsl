@@ -17,8 +17,13 @@ fn meadow(at: vec2f) -> Meadow {
     let n = meadow_noise(at);
     let dryness = smoothstep(0.30, 0.72, 0.40 * n.x + 0.38 * n.y + 0.22 * n.z);
     let lush = vec3f(0.040, 0.068, 0.016);
-    let grown = vec3f(0.078, 0.098, 0.026);
-    let dry = vec3f(0.150, 0.128, 0.052);
+    let grown = vec3f(0.070, 0.102, 0.024);
+    let dry = vec3f(0.138, 0.130, 0.050);
     let half_way = mix(lush, grown, smoothstep(0.0, 0.5, dryness));
     return Meadow(mix(half_way, dry, smoothstep(0.55, 1.0, dryness) * 0.8), dryness);
+}
+
+// Share of the sun that upright blades catch on ground with this cosine to it: a low sun still lights them.
+fn caught_by_blades(cosine: f32) -> f32 {
+    return select(0.0, 0.62 * cosine + 0.30 * sqrt(max(1.0 - cosine * cosine, 0.0)), cosine > 0.0);
 }

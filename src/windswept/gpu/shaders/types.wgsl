@@ -7,7 +7,7 @@ struct Frame {
     sun_projection: mat4x4f,   // world to the shadow map's clip space, depth 0..1
     eye: vec4f,                // position, m; time, s
     sun: vec4f,                // unit direction towards the sun; side of a shadow texel, m
-    sun_light: vec4f,          // linear RGB of the sun on a surface that faces it; 0
+    sun_light: vec4f,          // linear RGB of the sun on a surface that faces it; exposure
     sky_light: vec4f,          // linear RGB of the sky on a surface that faces up; 0
     haze: vec4f,               // linear RGB of the horizon; extinction, 1/m
     wind: vec4f,               // mean wind x, y in m/s; distance it has blown x, y in m
