@@ -4,6 +4,8 @@ import pytest
 
 from windswept.errors import GraphicsError
 from windswept.gpu import device as device_module
+from windswept.gpu import layouts
+from windswept.gpu.buffers import GrowingBuffer
 
 
 def test_the_adapter_has_a_line_of_its_own():
@@ -16,3 +18,9 @@ def test_no_adapter_names_the_line_that_mends_it(monkeypatch):
     with pytest.raises(GraphicsError, match="mesa-vulkan-drivers"):
         device_module.adapter_summary()
     device_module._best_adapter.cache_clear()
+
+
+def test_more_than_a_buffer_takes_is_said_in_megabytes(device):
+    store = GrowingBuffer(device, layouts.LINK_POSE)
+    with pytest.raises(GraphicsError, match="MB"):
+        store.reserve(device.limits["max-storage-buffer-binding-size"] // 16)

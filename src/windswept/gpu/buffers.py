@@ -8,6 +8,8 @@ import numpy as np
 import wgpu
 from numpy.typing import NDArray
 
+from windswept.errors import GraphicsError
+
 STORAGE = wgpu.BufferUsage.STORAGE | wgpu.BufferUsage.COPY_DST | wgpu.BufferUsage.COPY_SRC
 UNIFORM = wgpu.BufferUsage.UNIFORM | wgpu.BufferUsage.COPY_DST
 UNIFORM_STRIDE = 256
@@ -31,9 +33,19 @@ class GrowingBuffer:
         self.reserve(1)
 
     def reserve(self, rows: int) -> None:
-        """Make room for this many rows, with a little to spare."""
+        """Make room for this many rows, with a little to spare.
+
+        Raises:
+            GraphicsError: the device cannot bind so much at once.
+        """
         if self.buffer is None or self.buffer.size < rows * self._row:
-            size = max(rows + rows // 4, 64) * self._row
+            limit = self._device.limits["max-storage-buffer-binding-size"]
+            if rows * self._row > limit:
+                raise GraphicsError(
+                    f"a frame needs {rows * self._row / 1e6:.0f} MB in one buffer and this adapter takes "
+                    f"{limit / 1e6:.0f} MB: place fewer plants"
+                )
+            size = min(max(rows + rows // 4, 64) * self._row, limit // self._row * self._row)
             self.buffer = self._device.create_buffer(size=size, usage=STORAGE)
 
     def write(self, rows: NDArray[Any], first: int = 0) -> None:

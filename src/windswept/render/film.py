@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from windswept.errors import InputError
+from windswept.geometry.detail import DetailRules
 from windswept.gpu.frame import Frame
 from windswept.render.offscreen import render_picture
 from windswept.render.staging import frame_now, stage
@@ -48,12 +49,15 @@ def film(
         GraphicsError: there is no graphics adapter.
     """
     check_ending(path)
-    scene, renderer = simulation.scene, stage(simulation, size)
+    scene = simulation.scene
     if path.suffix.lower() in PICTURE_ENDINGS:
+        # A single picture may take its time: full detail on any device.
+        renderer = stage(simulation, size, DetailRules())
         simulation.advance(0.5 * scene.duration if at is None else at)
         render_picture(renderer, frame_now(simulation), path)
         progress(1, 1)
         return
+    renderer = stage(simulation, size)
     total = scene.frame_count
     render_video(
         renderer,

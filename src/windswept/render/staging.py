@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from windswept.geometry.curves import build_geometry
+from windswept.geometry.detail import DetailRules
 from windswept.gpu.frame import Camera, Frame, Ground, PosedPlants
 from windswept.gpu.renderer import Renderer
 from windswept.plants.plant import Floats
@@ -18,19 +19,22 @@ FLUTTER_SPEED = 5.0
 """Wind speed at which it trembles with 63 % of that, m/s."""
 
 
-def stage(simulation: Simulation, size: tuple[int, int] = (1280, 720)) -> Renderer:
+def stage(
+    simulation: Simulation, size: tuple[int, int] = (1280, 720), rules: DetailRules | None = None
+) -> Renderer:
     """A renderer that holds everything of a simulation's scene.
 
     Args:
         simulation: whose plants and ground to draw.
         size: width and height, pixels.
+        rules: what may be spent; None for what suits the device.
 
     Raises:
         GraphicsError: there is no graphics adapter.
     """
     plants = [kind.plant for kind in simulation.kinds]
     geometries = [build_geometry(plant) for plant in plants]
-    return Renderer(plants, geometries, ground_grid(simulation.scene.terrain), size)
+    return Renderer(plants, geometries, ground_grid(simulation.scene.terrain), size, rules)
 
 
 def frame_now(simulation: Simulation, view: View | None = None) -> Frame:

@@ -1,4 +1,5 @@
-// Meadow grass near the camera: one blade of five vertices, or a flower on a stalk. Set: types + light + meadow + grass.
+// Meadow grass near the camera: one blade of five vertices, lit there, or the head of a flower.
+// Set: types + light + meadow + grass.
 
 const BLADE = 5u;
 const BATCH = 64u;
@@ -9,9 +10,7 @@ const FLOWER_SHARE = 0.03;
 
 struct BladeVertex {
     @builtin(position) clip: vec4f,
-    @location(0) world: vec3f,
-    @location(1) normal: vec3f,
-    @location(2) colour: vec3f,
+    @location(0) colour: vec3f,
 }
 
 fn petal_colour(at: vec2f, chance: f32) -> vec3f {
@@ -22,9 +21,8 @@ fn petal_colour(at: vec2f, chance: f32) -> vec3f {
 
 @vertex
 fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> BladeVertex {
-    var out: BladeVertex;
     let item = instance * BATCH + vertex / BLADE;
-    if item >= batch.items.y { return out; }
+    if item >= batch.items.y { return BladeVertex(); }
     let corner = vertex % BLADE;
     let blade = blades[item];
     let chance = blade.chance;
@@ -48,28 +46,26 @@ fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance:
     let side = select(f32(corner % 2u) * 2.0 - 1.0, 0.0, corner == 4u) * (1.0 - 0.7 * rise);
     let bend = lean * rise * rise * tall;
     let drop = 0.4 * dot(bend, bend) / max(tall, 0.01);
-    out.world = root + vec3f(across * side * broad + bend, rise * tall - drop - 0.02);
+    var world = root + vec3f(across * side * broad + bend, rise * tall - drop - 0.02);
+    let straw = mix(here.colour * 1.7, vec3f(0.22, 0.18, 0.075), 0.55 * here.dryness * chance.x);
+    var colour = mix(here.colour * 0.5, straw, rise * (0.6 + 0.4 * chance.y));
     if flower {
         // A head alone, its stalk lost among the blades: a rhomb that looks up and a little aside.
         let spread = vec2f(select(0.0, side, corner == 2u || corner == 3u), 2.0 * rise - 1.0) * 2.2 * broad;
         let up = normalize(vec3f(lean, 0.8));
         let head = root + vec3f(lean * tall, tall);
-        out.world = head + spread.x * vec3f(across, 0.0) + spread.y * cross(up, vec3f(across, 0.0));
+        world = head + spread.x * vec3f(across, 0.0) + spread.y * cross(up, vec3f(across, 0.0));
+        colour = petal_colour(root.xy, chance.y);
     }
-    out.clip = frame.view_projection * vec4f(out.world, 1.0);
-    out.normal = normalize(vec3f(0.3 * (chance.xy - 0.5) + 0.15 * bend / max(tall, 0.01), 1.0));
-
-    let straw = mix(here.colour * 1.7, vec3f(0.22, 0.18, 0.075), 0.55 * here.dryness * chance.x);
-    let shaded = mix(here.colour * 0.5, straw, rise * (0.6 + 0.4 * chance.y));
-    out.colour = select(shaded, petal_colour(root.xy, chance.y), flower);
-    return out;
+    let normal = normalize(vec3f(0.3 * (chance.xy - 0.5) + 0.15 * bend / max(tall, 0.01), 1.0));
+    let towards = normalize(world - frame.eye.xyz);
+    let direct = caught_by_blades(max(dot(normal, frame.sun.xyz), 0.05));
+    let through = 0.7 * pow(max(dot(towards, frame.sun.xyz), 0.0), 3.0);
+    let light = frame.sun_light.rgb * (direct + through) * sunlight_once(world, normal) + ambient(normal) * 0.8;
+    return BladeVertex(frame.view_projection * vec4f(world, 1.0), finished(colour * light, world).rgb);
 }
 
 @fragment
 fn fragment(in: BladeVertex) -> @location(0) vec4f {
-    let direct = caught_by_blades(max(dot(in.normal, frame.sun.xyz), 0.05));
-    let towards = normalize(in.world - frame.eye.xyz);
-    let through = 0.7 * pow(max(dot(towards, frame.sun.xyz), 0.0), 3.0);
-    let light = frame.sun_light.rgb * (direct + through) * sunlight_once(in.world, in.normal) + ambient(in.normal) * 0.8;
-    return finished(in.colour * light, in.world);
+    return vec4f(in.colour, 1.0);
 }

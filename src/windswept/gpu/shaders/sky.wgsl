@@ -15,7 +15,7 @@ fn vertex(@builtin(vertex_index) vertex: u32) -> Ray {
 // Cloud cover 0..1 where a ray meets the cloud layer.
 fn cover(uv: vec2f) -> f32 {
     let shape = 0.60 * noise(uv).r + 0.26 * noise(uv * 2.7 + 0.21).r + 0.14 * noise(uv * 8.3 + 0.6).r;
-    return smoothstep(0.48, 0.80, shape);
+    return smoothstep(0.43, 0.78, shape);
 }
 
 @fragment
