@@ -1,0 +1,14 @@
+"""The card: the only place that creates devices, buffers and pipelines.
+
+What stays is uploaded once, what moves is uploaded every frame, and one draw list ties them together::
+
+    Plant, Geometry, Look --plant_arrays--> rest buffers   (plant_buffers.py, layouts.py = shaders/types.wgsl)
+    Frame --draw_list--> what to draw of each placement    (draw_list.py, by geometry/detail.py)
+          --Posing--> posed pieces and leaves              (posing.py, shaders/curves.wgsl)
+          --PlantDrawing--> shadow map, then picture       (plant_drawing.py, shaders/bark.wgsl, leaves.wgsl)
+          --Backdrop--> grass, ground, sky                 (backdrop.py, shaders/grass.wgsl, ground.wgsl, sky.wgsl)
+
+`Renderer` in renderer.py walks down these steps; frame.py holds the nouns it is given. Bind group 0 is the frame's
+uniforms, 1 belongs to whoever draws, 2 is light (lighting.py, shaders/light.wgsl). All kinds of plants lie in the
+same buffers, so a frame is some ten draws however many kinds and placements it has.
+"""

@@ -18,7 +18,7 @@ FINEST = 140
 """Most grid lines spent on the terrain itself, along each axis."""
 SKIRT_LINES = 26
 """Grid lines between the terrain's edge and the horizon, on each side."""
-HILL_HEIGHT = 110.0
+HILL_HEIGHT = 240.0
 """Of the hills near the horizon, m."""
 
 
