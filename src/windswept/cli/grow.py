@@ -4,39 +4,80 @@ from __future__ import annotations
 
 import json
 import time
+from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 import click
 import numpy as np
 
+from windswept.errors import InputError
 from windswept.motion.modes import plant_frequencies
 from windswept.motion.rods import build_rods
 from windswept.motion.skeleton import build_skeleton
 from windswept.plants.plant import Plant
-from windswept.plants.weber_penn import grow
+from windswept.plants.save import save_plant
+from windswept.plants.sources import Grown, grow_with_report
+from windswept.plants.write_species import write_species
 
 BREAST_HEIGHT = 1.3
 """Height at which foresters measure a trunk, m."""
+ENDINGS = (".npz", ".toml", ".obj")
+"""Of the files that a plant is saved to."""
 
 
 @click.command("grow")
 @click.argument("source")
 @click.option("--seed", default=0, show_default=True, help="Which individual of the species.")
+@click.option("-o", "--output", help="Save as .npz (complete), .toml (the species) or .obj (mesh at rest).")
+@click.option(
+    "--leaf-area", type=float, help="Of a scan: m^2 of leaves; 0 is winter. [default: by the trunk]"
+)
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of lines.")
-def command(source: str, seed: int, as_json: bool) -> None:
-    """Grow one plant from SOURCE (a species name or a .toml file) and report its figures.
+def command(source: str, seed: int, output: str | None, leaf_area: float | None, as_json: bool) -> None:
+    """Grow one plant from SOURCE and report its figures.
+
+    SOURCE is the name of a built-in species or grammar, or a file: species .toml; Arbaro or Helios .xml; tree-gen
+    or Sapling .py; ez-tree .json; Arbaro list .txt; L-system .l or .lpy; scanned cylinders .csv or .mat; a saved
+    plant .npz.
 
     Example: windswept grow quaking_aspen --seed 3 --json
     """
+    if output is not None and Path(output).suffix.lower() not in ENDINGS:
+        raise InputError(output, "", None, f"a file that ends in one of {', '.join(ENDINGS)}")
     started = time.perf_counter()
-    plant = grow(source, seed)
-    figures = plant_figures(plant, time.perf_counter() - started)
+    grown = grow_with_report(source, seed, leaf_area)
+    figures = plant_figures(grown.plant, time.perf_counter() - started)
+    if grown.report is not None:
+        for line in grown.report.lines():
+            click.echo(line, err=True)
+        figures["import_report"] = asdict(grown.report)
+    if output is not None:
+        _save(source, grown, Path(output))
     if as_json:
         click.echo(json.dumps(figures))
         return
+    figures.pop("import_report", None)
     for name, value in figures.items():
         shown = ", ".join(f"{v:g}" for v in value) if isinstance(value, list) else value
         click.echo(f"{name:<16} {shown:.4g}" if isinstance(shown, float) else f"{name:<16} {shown}")
+
+
+def _save(source: str, grown: Grown, path: Path) -> None:
+    """Write the plant, or the species it grew from."""
+    ending = path.suffix.lower()
+    if ending == ".npz":
+        save_plant(grown.plant, path)
+    elif ending == ".toml":
+        if grown.species is None:
+            raise InputError(
+                source, "", None, "a source that is a species: this one can be saved as .npz or .obj"
+            )
+        write_species(grown.species, path)
+    else:
+        from windswept.export.obj import export_obj
+
+        export_obj(grown.plant, path)
 
 
 def plant_figures(plant: Plant, seconds: float) -> dict[str, Any]:

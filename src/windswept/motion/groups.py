@@ -9,14 +9,15 @@ from windswept.motion.lanes import WIDTH, settled, sqrt, store
 from windswept.motion.level import (
     CENTRE,
     COUPLE,
-    FORCE,
+    FORCE_LEAF,
+    FORCE_WOOD,
     GROUP_MOBILITY,
     GROUP_STEP,
     LEAF_FACTOR,
     SWAY,
     WOOD_FACTOR,
 )
-from windswept.motion.registers import constant3, load3, load4
+from windswept.motion.registers import constant3, load3, load4, tensor_times
 from windswept.motion.rotation import add_scaled, cross, dot, rotate, rotate_back
 
 _F = np.float32
@@ -63,7 +64,8 @@ def swing_group(g, k, air, groups, carrier):  # type: ignore[no-untyped-def]
     relative = add_scaled(air, v, _F(-1.0))
     speed = sqrt(dot(relative, relative) + _TINY)
     relative = add_scaled(air, v, _F(-1.0) / (_F(1.0) + speed * g[k, GROUP_MOBILITY]))
-    weight = speed * (air[3] * g[k, LEAF_FACTOR] + g[k, WOOD_FACTOR])
+    leaf = speed * air[3]
+    weight = leaf * g[k, LEAF_FACTOR] + speed * g[k, WOOD_FACTOR]
     pressure = (relative[0] * weight, relative[1] * weight, relative[2] * weight)
     target = rotate_back(q, pressure)
     for i in range(3):
@@ -72,7 +74,12 @@ def swing_group(g, k, air, groups, carrier):  # type: ignore[no-untyped-def]
         swung = y * g[k, GROUP_STEP + 2] + rate[i] * g[k, GROUP_STEP + 3]
         store(groups, at + np.uintp(i) * _W, settled(moved, _THRESHOLD))
         store(groups, at + np.uintp(i + 3) * _W, settled(swung, _THRESHOLD))
-    force = matrix_times(g, k, FORCE, pressure)
+    on_leaf, on_wood = tensor_times(g, k, FORCE_LEAF, relative), tensor_times(g, k, FORCE_WOOD, relative)
+    force = (
+        on_leaf[0] * leaf + on_wood[0] * speed,
+        on_leaf[1] * leaf + on_wood[1] * speed,
+        on_leaf[2] * leaf + on_wood[2] * speed,
+    )
     moment = add_scaled(
         cross(add_scaled(x, arm, _F(1.0)), force), matrix_times(g, k, COUPLE, pressure), _F(1.0)
     )

@@ -11,8 +11,8 @@ from windswept.plants.plant import Floats, Ints, Material
 
 GROUP_CONSTANT_COUNT = 40
 """Columns of ``Level.group_constants``; the kernel reads them by the numbers below."""
-CENTRE, FORCE, COUPLE, SWAY = 0, 3, 12, 21
-LEAF_FACTOR, WOOD_FACTOR, GROUP_MOBILITY, GROUP_STEP = 30, 31, 32, 33
+CENTRE, FORCE_LEAF, FORCE_WOOD, COUPLE, SWAY = 0, 3, 9, 15, 24
+LEAF_FACTOR, WOOD_FACTOR, GROUP_MOBILITY, GROUP_STEP = 33, 34, 35, 36
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +42,9 @@ class Level:
     group_start: Ints
     """(A + 2,) groups on the ground are the range from [0] to [1], those on active link a from [a + 1] to [a + 2]."""
     group_constants: Floats
-    """(G, GROUP_CONSTANT_COUNT) centre of pressure from the carrier's joint (3, m), force and couple per pressure
-    (3 x 3 each, row by row), sway of the centre per pressure (3 x 3), factors of leaf and wood, mobility, step (4)."""
+    """(G, GROUP_CONSTANT_COUNT) centre of pressure from the carrier's joint (3, m), drag tensors of leaves and of
+    wood (6 each, like ``Drag.leaf``), couple and sway of the centre per pressure (3 x 3 each, row by row), factors
+    of leaf and wood drag in the pressure, mobility, step (4)."""
     group_probe: Ints
     """(G,) wind probe of each group."""
     listens: Ints

@@ -35,3 +35,15 @@ def load4(a, i):  # type: ignore[no-untyped-def]
 def constant3(constants, link, column):  # type: ignore[no-untyped-def]
     """Three columns of a link's constants."""
     return constants[link, column], constants[link, column + 1], constants[link, column + 2]
+
+
+@njit(fastmath=True, forceinline=True)
+def tensor_times(constants, row, column, v):  # type: ignore[no-untyped-def]
+    """The symmetric tensor xx, yy, zz, xy, xz, yz in six columns of constants, times a vector."""
+    xx, yy, zz = constant3(constants, row, column)
+    xy, xz, yz = constant3(constants, row, column + 3)
+    return (
+        v[0] * xx + v[1] * xy + v[2] * xz,
+        v[0] * xy + v[1] * yy + v[2] * yz,
+        v[0] * xz + v[1] * yz + v[2] * zz,
+    )

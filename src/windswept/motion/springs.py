@@ -40,7 +40,7 @@ from windswept.motion.model import (
     STEP_XX,
     VECTOR,
 )
-from windswept.motion.registers import constant3, load3, load4, store3
+from windswept.motion.registers import constant3, load3, load4, store3, tensor_times
 from windswept.motion.rotation import (
     add_scaled,
     cross,
@@ -77,12 +77,7 @@ def drag_force(c, link, wind, v, d):  # type: ignore[no-untyped-def]
     u = add_scaled(wind, v, _F(-1.0))
     speed = sqrt(dot(u, u) + _TINY)
     u = add_scaled(wind, v, _F(-1.0) / (_F(1.0) + speed * c[link, MOBILITY]))
-    t = DRAG_LEAF
-    leaf = (
-        u[0] * c[link, t] + u[1] * c[link, t + 3] + u[2] * c[link, t + 4],
-        u[0] * c[link, t + 3] + u[1] * c[link, t + 1] + u[2] * c[link, t + 5],
-        u[0] * c[link, t + 4] + u[1] * c[link, t + 5] + u[2] * c[link, t + 2],
-    )
+    leaf = tensor_times(c, link, DRAG_LEAF, u)
     across = add_scaled(u, d, dot(d, u) * (-c[link, INVERSE_SQUARE]))
     f, w = speed * wind[3], speed * c[link, DRAG_WOOD]
     return leaf[0] * f + across[0] * w, leaf[1] * f + across[1] * w, leaf[2] * f + across[2] * w

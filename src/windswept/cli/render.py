@@ -1,0 +1,88 @@
+"""``windswept render``."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import click
+
+from windswept.cli.progress import progress_bar, status_line
+from windswept.errors import InputError
+from windswept.scene.load_scene import load_scene
+from windswept.scene.scene import Scene
+from windswept.scene.simulation import Simulation
+
+LARGEST_SIDE = 8192
+"""Pixels: what every graphics adapter can draw."""
+
+
+def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, int]:
+    """Width and height from "1280x720"."""
+    parts = text.lower().split("x")
+    if len(parts) == 2 and all(part.isdigit() and 16 <= int(part) <= LARGEST_SIDE for part in parts):
+        return int(parts[0]), int(parts[1])
+    raise InputError("--size", "", text, f"WIDTHxHEIGHT of 16 to {LARGEST_SIDE} pixels, like 1280x720")
+
+
+@click.command("render")
+@click.argument("source", metavar="SCENE")
+@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help=".png, .mp4 or .webp")
+@click.option("--size", default="1280x720", show_default=True, callback=parse_size, help="Width and height.")
+@click.option(
+    "--at", type=click.FloatRange(0.0, 3600.0), help="Time of a picture, s; the scene's middle if not given."
+)
+@click.option(
+    "--duration", type=click.FloatRange(0.01, 3600.0), help="Length of a video instead of the scene's, s."
+)
+@click.option("--seed", type=click.IntRange(0), help="Instead of the scene's.")
+@click.option("--json", "as_json", is_flag=True, help="Report as one JSON object.")
+def command(
+    source: str,
+    output: Path,
+    size: tuple[int, int],
+    at: float | None,
+    duration: float | None,
+    seed: int | None,
+    as_json: bool,
+) -> None:
+    """Draw SCENE (a scene file, or a SOURCE: a lone plant) to a picture or a video, without a screen.
+
+    Example: windswept render examples/forest_edge.toml -o edge.mp4
+    """
+    from windswept.render.film import check_ending
+
+    check_ending(output)
+    scene = load_scene(source, seed)
+    if duration is not None:
+        scene = replace(scene, duration=duration)
+    figures = render_scene(scene, output, size, at)
+    if as_json:
+        click.echo(json.dumps(figures))
+
+
+def render_scene(
+    scene: Scene, output: Path, size: tuple[int, int], at: float | None = None
+) -> dict[str, Any]:
+    """Simulates and draws a scene with progress on stderr, and says what it took."""
+    from windswept.render.film import film
+
+    started = time.perf_counter()
+    with status_line("growing plants") as say:
+        simulation = Simulation(scene, say=say)
+    ready = time.perf_counter()
+    with progress_bar(f"drawing {output.name}") as progress:
+        film(simulation, output, size, at, progress)
+    drawn = time.perf_counter() - ready
+    return {
+        "output": str(output),
+        "plants": scene.placement_count,
+        "kinds": len(scene.kinds),
+        "links": simulation.link_count,
+        "simulated_s": round(simulation.time, 3),
+        "grow_seconds": round(ready - started, 2),
+        "draw_seconds": round(drawn, 2),
+    }

@@ -1,0 +1,66 @@
+"""``windswept view``."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import click
+
+from windswept.cli.progress import status_line
+from windswept.scene.load_scene import load_scene
+from windswept.scene.scene import Scene
+from windswept.scene.simulation import Simulation
+from windswept.wind.wind import Wind
+
+
+@click.command("view")
+@click.argument("source", metavar="SCENE")
+@click.option("--seed", type=click.IntRange(0), help="Instead of the scene's.")
+def command(source: str, seed: int | None) -> None:
+    """Open a live window on SCENE: drag to orbit, scroll to zoom, sliders for the wind, pause.
+
+    Example: windswept view weeping_willow
+    """
+    view_scene(load_scene(source, seed))
+
+
+def view_scene(scene: Scene) -> None:
+    """Opens the window and runs until it is closed.
+
+    Raises:
+        GraphicsError: no display, no adapter, or the window libraries are not installed.
+    """
+    from windswept.geometry.curves import build_geometry
+    from windswept.gpu.frame import Camera, Frame
+    from windswept.render.staging import camera_of, frame_now, ground_grid
+    from windswept.render.window import Controls, require_display, show_window
+    from windswept.scene.camera import view_at
+
+    require_display()
+    with status_line("growing plants") as say:
+        simulation = Simulation(scene, say=say)
+        plants = [kind.plant for kind in simulation.kinds]
+        geometries = [build_geometry(plant) for plant in plants]
+
+    def advance(seconds: float, controls: Controls, camera: Camera) -> Frame:
+        simulation.wind = blown(scene.wind, controls.wind_speed, controls.wind_heading)
+        simulation.advance(seconds)
+        controls.counters = f"{simulation.link_count:,} links, {simulation.time:.1f} s"
+        return replace(frame_now(simulation), camera=camera)
+
+    mean = scene.wind.mean
+    show_window(
+        plants,
+        geometries,
+        advance,
+        camera_of(view_at(scene.camera, 0.0)),
+        ground_grid(scene.terrain),
+        Controls(wind_speed=mean.speed, wind_heading=math.remainder(mean.azimuth, math.tau)),
+        "windswept",
+    )
+
+
+def blown(wind: Wind, speed: float, azimuth: float) -> Wind:
+    """The same wind with another mean speed (m/s) and azimuth (rad)."""
+    return replace(wind, mean=replace(wind.mean, speed=speed, azimuth=azimuth))
