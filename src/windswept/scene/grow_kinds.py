@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from windswept.plants.plant import Plant
-from windswept.plants.weber_penn import grow
+from windswept.plants.sources import grow_source
 from windswept.scene.scene import PlantKind, Scene
 
 
@@ -25,4 +25,4 @@ def grow_kinds(scene: Scene, say: Callable[[str], None] = lambda line: None) -> 
 def _grow_kind(kind: PlantKind, say: Callable[[str], None]) -> Plant:
     """One plant."""
     say(f"growing {kind.source}, seed {kind.seed}")
-    return grow(kind.source, kind.seed)
+    return grow_source(kind.source, kind.seed)

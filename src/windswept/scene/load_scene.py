@@ -1,4 +1,4 @@
-"""load_scene: from a scene file, a species file or a species name to a Scene."""
+"""load_scene: from a scene file, or anything that a plant can come from, to a Scene."""
 
 from __future__ import annotations
 
@@ -10,25 +10,26 @@ from windswept.errors import InputError
 from windswept.forms.check_form import check_form
 from windswept.forms.read_toml import read_toml
 from windswept.forms.words import nearest
-from windswept.plants.species import species_names
+from windswept.plants.sources import ENDINGS, SPECIES_ENDING, is_path, source_names
 from windswept.scene.build_camera import build_camera
 from windswept.scene.build_wind import build_wind
 from windswept.scene.form import GroundForm, SceneForm
 from windswept.scene.lone_plant import lone_plant
 from windswept.scene.place_plants import named_stream, place_plants
-from windswept.scene.plant_sources import is_path
 from windswept.scene.scene import Scene, sun_towards
 from windswept.scene.terrain import Terrain, flat_terrain, hilly_terrain
 
 LARGEST_FILE = 16 << 20
 """A scene file of more bytes than this is a mistake: 100,000 plants take 8 MiB."""
+PLANT_ENDINGS = tuple(ending for ending in ENDINGS if ending != SPECIES_ENDING)
+"""Of files that can only be plants; a .toml file may be a scene too."""
 
 
 def load_scene(source: str | Path, seed: int | None = None) -> Scene:
-    """Read a scene; a species alone is a lone plant on flat ground.
+    """Read a scene; the source of one plant means that plant on flat ground.
 
     Args:
-        source: path of a scene file or of a species file, or name of a built-in species.
+        source: path of a scene file, or anything that `grow_source` takes.
         seed: replaces the scene file's seed, or is that of the lone plant; None keeps the file's, or 0.
 
     Raises:
@@ -36,10 +37,12 @@ def load_scene(source: str | Path, seed: int | None = None) -> Scene:
         BudgetError: the scene holds more plants than its budget.
     """
     name = str(source)
-    if isinstance(source, str) and not is_path(source):
-        if source not in species_names():
-            expected = f"a scene file or a built-in species: {nearest(source, species_names())}"
-            raise InputError(source or "scene", "", None, expected)
+    if not is_path(source):
+        if source not in source_names():
+            expected = f"a scene file or a built-in species: {nearest(name, source_names())}"
+            raise InputError(name or "scene", "", None, expected)
+        return lone_plant(name, seed or 0)
+    if Path(source).suffix.lower() in PLANT_ENDINGS:
         return lone_plant(name, seed or 0)
     data = read_toml(Path(source), LARGEST_FILE, "a scene file")
     if "growth" in data:

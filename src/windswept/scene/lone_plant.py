@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from windswept.plants.weber_penn import grow
+from windswept.plants.sources import grow_source
 from windswept.scene.build_camera import frame_plant
 from windswept.scene.build_wind import build_wind
 from windswept.scene.form import GustForm, WindForm
@@ -26,14 +26,14 @@ def lone_plant(source: str, seed: int = 0) -> Scene:
     The plant is grown here to learn its size (0.01 to 0.4 s) and let go.
 
     Args:
-        source: name of a built-in species or path of a species file.
+        source: anything that `grow_source` takes.
         seed: of growth and of the turbulence.
 
     Raises:
-        InputError: no such species, or its file is wrong.
+        InputError: no such source, or its file is wrong.
         BudgetError: the plant would be larger than the budget of growth.
     """
-    plant = grow(source, seed)
+    plant = grow_source(source, seed)
     radius = float(np.hypot(plant.link_tip[:, 0], plant.link_tip[:, 1]).max())
     placements = Placements(position=np.zeros((1, 3), dtype=np.float32), yaw=np.zeros(1, dtype=np.float32))
     return Scene(

@@ -10,7 +10,7 @@ import numpy as np
 from windswept.errors import BudgetError, InputError
 from windswept.scene.area import Area, ellipse, rectangle
 from windswept.scene.form import AreaForm, PlantForm, SceneForm, StandForm
-from windswept.scene.plant_sources import Nursery, find_species
+from windswept.scene.plant_sources import Nursery, find_source
 from windswept.scene.scatter import Ground, Sort, scatter, share_out
 from windswept.scene.scene import Placements, PlantKind
 from windswept.scene.terrain import Terrain
@@ -66,7 +66,7 @@ def _place_one(
     """One [[plant]]."""
     x, y = form.position
     _check_on_ground(source, f"{place}.position", list(form.position), terrain)
-    kind = PlantKind(find_species(source, f"{place}.source", form.source), form.seed)
+    kind = PlantKind(find_source(source, f"{place}.source", form.source), form.seed)
     ground.take(x, y, 0.0)
     nursery.add(kind, x, y, math.radians(form.yaw_degrees))
 
@@ -82,7 +82,7 @@ def _place_stand(
     rng: np.random.Generator,
 ) -> None:
     """One [[stand]]: its plants shared out by weight, scattered, and given to a few individuals."""
-    names = [find_species(source, f"{place}.source[{i}].source", s.source) for i, s in enumerate(form.source)]
+    names = [find_source(source, f"{place}.source[{i}].source", s.source) for i, s in enumerate(form.source)]
     area = build_area(source, f"{place}.area", form.area, terrain)
     counts = share_out(form.count, [sort.weight for sort in form.source])
     sorts = [Sort(n, s.spacing_m, s.depth_bias) for n, s in zip(counts, form.source, strict=True)]

@@ -1,4 +1,4 @@
-"""Which species a scene file's source means, and which individuals of it are grown."""
+"""Which plant a scene file's source means, and which individuals of it are grown."""
 
 from __future__ import annotations
 
@@ -10,19 +10,15 @@ from numpy.typing import NDArray
 
 from windswept.errors import InputError
 from windswept.forms.words import nearest
-from windswept.plants.species import load_species, species_names
+from windswept.plants.sources import SPECIES_ENDING, check_source, is_path, source_names
+from windswept.plants.species import load_species
 from windswept.scene.scene import PlantKind
 
 Reals = NDArray[np.float64]
 
 
-def is_path(source: str) -> bool:
-    """Whether a source is a file rather than the name of a built-in species."""
-    return "/" in source or "\\" in source or "." in source
-
-
-def find_species(file: str, place: str, source: str) -> str:
-    """A species' name, or the path of its file, that is sure to load.
+def find_source(file: str, place: str, source: str) -> str:
+    """A source as `grow_source` takes it, that means a species, a grammar or a file that is there.
 
     Args:
         file: the scene file.
@@ -30,16 +26,18 @@ def find_species(file: str, place: str, source: str) -> str:
         source: its value; a path is relative to the scene file.
 
     Raises:
-        InputError: no such species or file, or the file is wrong.
+        InputError: no such name or file, or the species file is wrong.
     """
     if not is_path(source):
-        if source not in species_names():
-            raise InputError(file, place, source, f"a built-in species: {nearest(source, species_names())}")
+        if source not in source_names():
+            raise InputError(file, place, source, f"a built-in species: {nearest(source, source_names())}")
         return source
     path = Path(file).parent / source
     if not path.is_file():
         raise InputError(file, place, source, f"a species file that exists (looked for {path})")
-    load_species(path)
+    check_source(path)
+    if path.suffix.lower() == SPECIES_ENDING:
+        load_species(path)
     return str(path)
 
 

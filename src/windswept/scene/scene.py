@@ -19,7 +19,7 @@ class PlantKind:
     """One plant to grow; all its placements share it."""
 
     source: str
-    """Name of a built-in species, or path of a species file."""
+    """Anything that `grow_source` takes: a name or the path of a file."""
     seed: int
     """Seed of growth."""
 

@@ -1,0 +1,1 @@
+"""Plants for other tools: one file a format, one public function each."""
