@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from shaken import shaken_pose
-from windswept.gpu.frame import Camera
+from windswept.gpu.frame import Camera, Frame, PosedPlants
+from windswept.gpu.renderer import Renderer
 
 
 def brightness(picture):
@@ -66,3 +69,16 @@ def test_looking_straight_down_and_away_from_everything(stand):
     for camera in (Camera((0, 0, 20), (0, 0, 0)), Camera((0, -9, 2), (0, -90, 2))):
         picture = stand.renderer.draw(stand.frame(camera=camera))
         assert picture[..., :3].std() > 1.0
+
+
+def test_a_meadow_without_plants_is_drawn(device):
+    renderer = Renderer([], [], size=(64, 48))
+    picture = renderer.draw(Frame((), Camera((0.0, -9.0, 2.0), (0.0, 0.0, 1.0))))
+    assert picture[..., :3].std() > 5.0
+
+
+def test_a_kind_without_placements_is_no_trouble(stand):
+    frame = stand.frame()
+    none = PosedPlants(*(getattr(frame.plants[1], name)[:0] for name in PosedPlants.__slots__))
+    picture = stand.renderer.draw(replace(frame, plants=(frame.plants[0], none)))
+    assert (picture != stand.renderer.draw(frame)).any()

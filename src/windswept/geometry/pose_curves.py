@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from windswept.geometry.geometry import Geometry, PosedCurves
-from windswept.plants.plant import Floats, Ints
+from windswept.plants.plant import Floats
 from windswept.plants.pose import Pose
 
 
@@ -78,8 +78,3 @@ def perpendicular(vector: Floats, direction: Floats) -> Floats:
     """(..., 3) unit part of a vector that is perpendicular to a unit direction."""
     across = vector - np.sum(vector * direction, axis=-1, keepdims=True) * direction
     return across / np.linalg.norm(across, axis=-1, keepdims=True)
-
-
-def stem_pieces(geometry: Geometry, stem: int) -> Ints:
-    """(n,) pieces of one stem, base to tip."""
-    return np.arange(geometry.stem_piece_start[stem], geometry.stem_piece_start[stem + 1], dtype=np.int32)

@@ -84,7 +84,8 @@ def draw_list(
         view: camera and shadow volume.
         rules: what may be spent.
     """
-    rows, centres, radii, meshes = [], [], [], []
+    rows, centres = [np.zeros(0, layouts.PLACEMENT)], [np.zeros((0, 3))]
+    radii, meshes = [np.zeros(0)], [np.zeros(0, np.int32)]
     link_first = shift_first = 0
     for look, (kind, posed) in enumerate(zip(kinds, plants, strict=True)):
         centre = _placed_centres(kind, posed)

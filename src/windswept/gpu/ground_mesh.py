@@ -14,7 +14,7 @@ Doubles = NDArray[np.float64]
 
 HORIZON = 6000.0
 """Half the side of the drawn ground, m."""
-FINEST = 140
+FINEST = 96
 """Most grid lines spent on the terrain itself, along each axis."""
 SKIRT_LINES = 26
 """Grid lines between the terrain's edge and the horizon, on each side."""

@@ -51,7 +51,9 @@ def plant_arrays(geometries: list[Geometry], link_bases: list[Floats], looks: li
         looks: one for each kind, at most ``LOOK_LIMIT``.
     """
     kinds: list[Kind] = []
-    stems, pieces, leaves = [], [], []
+    stems = [np.zeros(0, layouts.STEM)]
+    pieces = [np.zeros(0, layouts.PIECE)]
+    leaves = [np.zeros(0, layouts.LEAF)]
     stem_first = piece_first = leaf_first = 0
     for geometry, link_base in zip(geometries, link_bases, strict=True):
         order = detail_order(geometry)

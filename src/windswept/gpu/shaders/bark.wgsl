@@ -116,13 +116,18 @@ fn posed_vertex(vertex: u32, instance: u32) -> Bark {
     let stem = stems[piece.rows.x];
     let point = surface(piece, stem, at.t, at.turn * TAU);
     let span = mix(piece.p0.w, piece.p1.w, at.t);
+    let radius = profile(stem, span).x;
+    let is_trunk = stem.rows.x == NONE;
+    // A trunk's first ring is buried, so that no light shows under it on a slope.
+    let buried = select(0.0, 0.6 * radius, is_trunk && span == 0.0);
+    let world = point.position - vec3f(0.0, 0.0, buried);
     let girth = TAU * stem.profile.x;
-    out.clip = frame.view_projection * vec4f(point.position, 1.0);
-    out.world = point.position;
+    out.clip = frame.view_projection * vec4f(world, 1.0);
+    out.world = world;
     out.normal = point.normal;
-    let foot = select(1e3, span * stem.attach.z, stem.rows.x == NONE);
+    let foot = select(1e3, span * stem.attach.z, is_trunk);
     out.grain = vec2f(at.turn * max(1.0, round(girth / 0.8)), span * stem.attach.z / 2.6 + 7.3 * piece.side1.w);
-    out.shade = vec4f(mix(piece.p2.w, piece.p3.w, at.t), foot, profile(stem, span).x, fract(piece.side1.w * 3.7));
+    out.shade = vec4f(mix(piece.p2.w, piece.p3.w, at.t), foot, radius, fract(piece.side1.w * 3.7));
     out.look = piece.rows.y;
     return out;
 }
@@ -152,6 +157,11 @@ fn bumped(normal: vec3f, world: vec3f, height: f32) -> vec3f {
     return normalize(abs(scale) * normal - slope + 1e-9 * normal);
 }
 
+// Young wood is brown whatever the trunk's bark.
+fn wood_colour(bark: vec3f, radius: f32) -> vec3f {
+    return mix(bark, vec3f(0.13, 0.095, 0.06), 0.75 * smoothstep(0.035, 0.010, radius));
+}
+
 @fragment
 fn fragment(in: Bark) -> @location(0) vec4f {
     let look = looks[in.look];
@@ -167,7 +177,7 @@ fn fragment(in: Bark) -> @location(0) vec4f {
 
     let foot = smoothstep(-0.1, 0.9, in.shade.y + 0.5 * broad);
     let pale = smoothstep(0.30, 0.45, dot(look.bark.rgb, vec3f(0.333)));
-    var albedo = look.bark.rgb * mix(1.0, 0.30 + 1.0 * furrow, 0.25 + 0.75 * relief) * (0.72 + 0.5 * broad);
+    var albedo = wood_colour(look.bark.rgb, in.shade.z) * mix(1.0, 0.30 + 1.0 * furrow, 0.25 + 0.75 * relief) * (0.72 + 0.5 * broad);
     albedo *= 1.0 - 0.75 * pale * smoothstep(0.66, 0.76, scars) * smoothstep(0.02, 0.06, in.shade.z);
     albedo = mix(mix(albedo * 0.6, vec3f(0.055, 0.065, 0.025), 0.5 * broad), albedo, foot);
 
@@ -184,7 +194,7 @@ fn vertex_lit(@builtin(vertex_index) vertex: u32, @builtin(instance_index) insta
     let direct = max(dot(in.normal, frame.sun.xyz), 0.0);
     let sun = frame.sun_light.rgb * direct * sunlight_once(in.world, in.normal);
     let light = sun + ambient(in.normal) * (0.25 + 0.75 * in.shade.x);
-    let albedo = looks[in.look].bark.rgb * (0.7 + 0.4 * in.shade.w);
+    let albedo = wood_colour(looks[in.look].bark.rgb, in.shade.z) * (0.7 + 0.4 * in.shade.w);
     return LitVertex(in.clip, finished(albedo * light, in.world).rgb);
 }
 

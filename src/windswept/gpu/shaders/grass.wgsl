@@ -14,7 +14,7 @@ struct BladeVertex {
 }
 
 fn petal_colour(at: vec2f, chance: f32) -> vec3f {
-    let kind = textureSampleLevel(noise_map, noise_sampler, at / 23.0, 0.0).r + 0.3 * chance;
+    let kind = noise_level(at / 23.0, 0.0).r + 0.3 * chance;
     return select(select(vec3f(0.80, 0.78, 0.70), vec3f(0.80, 0.58, 0.05), kind > 0.55),
         vec3f(0.32, 0.16, 0.50), kind > 0.85);
 }
@@ -28,7 +28,7 @@ fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance:
     let chance = blade.chance;
     let root = blade.root.xyz;
     let away = distance(root, frame.eye.xyz);
-    let clump = textureSampleLevel(noise_map, noise_sampler, root.xy / 3.7, 0.0);
+    let clump = noise_level(root.xy / 3.7, 0.0);
     let here = meadow(root.xy);
     let flower = fract(chance.z * 61.7) < FLOWER_SHARE * (0.3 + 2.5 * clump.r * here.dryness);
     let tall = blade.root.w * (0.10 + 0.30 * chance.z * (0.35 + clump.g)) * select(1.0, 1.25, flower);

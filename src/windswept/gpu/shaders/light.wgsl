@@ -14,6 +14,11 @@ fn noise(uv: vec2f) -> vec4f {
     return textureSample(noise_map, noise_sampler, uv);
 }
 
+// The same at a level of detail that the caller knows: cheaper, and free of derivatives.
+fn noise_level(uv: vec2f, level: f32) -> vec4f {
+    return textureSampleLevel(noise_map, noise_sampler, uv, level);
+}
+
 // Share of the sun that reaches a point: four bilinear comparisons round it.
 fn sunlight(world: vec3f, normal: vec3f) -> f32 {
     let texel = frame.sun.w;

@@ -7,9 +7,9 @@ struct Meadow {
 }
 
 fn meadow_noise(at: vec2f) -> vec3f {
-    let broad = textureSampleLevel(noise_map, noise_sampler, mat2x2f(0.6, 0.8, -0.8, 0.6) * at / 97.0, 0.0).r;
-    let middle = textureSampleLevel(noise_map, noise_sampler, mat2x2f(0.28, -0.96, 0.96, 0.28) * at / 31.0, 1.0).r;
-    let small = textureSampleLevel(noise_map, noise_sampler, at / 8.3 + 0.4, 1.0).r;
+    let broad = noise_level(mat2x2f(0.6, 0.8, -0.8, 0.6) * at / 97.0, 0.0).r;
+    let middle = noise_level(mat2x2f(0.28, -0.96, 0.96, 0.28) * at / 31.0, 1.0).r;
+    let small = noise_level(at / 8.3 + 0.4, 1.0).r;
     return vec3f(broad, middle, small);
 }
 

@@ -14,7 +14,8 @@ fn vertex(@builtin(vertex_index) vertex: u32) -> Ray {
 
 // Cloud cover 0..1 where a ray meets the cloud layer.
 fn cover(uv: vec2f) -> f32 {
-    let shape = 0.60 * noise(uv).r + 0.26 * noise(uv * 2.7 + 0.21).r + 0.14 * noise(uv * 8.3 + 0.6).r;
+    let shape = 0.60 * noise_level(uv, 0.0).r + 0.26 * noise_level(uv * 2.7 + 0.21, 0.0).r
+        + 0.14 * noise_level(uv * 8.3 + 0.6, 0.0).r;
     return smoothstep(0.43, 0.78, shape);
 }
 
@@ -25,7 +26,7 @@ fn fragment(in: Ray) -> @location(0) vec4f {
     let layer = direction.xy / (max(direction.z, 0.0) + 0.09);
     let uv = 0.11 * layer + 0.00004 * frame.wind.zw + 0.13;
     let thick = cover(uv);
-    let sunward = smoothstep(0.45, 0.80, noise(uv + 0.02 * frame.sun.xy).r);
+    let sunward = smoothstep(0.45, 0.80, noise_level(uv + 0.02 * frame.sun.xy, 0.0).r);
     let towards = max(dot(direction, frame.sun.xyz), 0.0);
     let lit = frame.sun_light.rgb * (0.30 + 0.25 * pow(towards, 8.0)) * (1.0 - 0.6 * sunward);
     let cloud = lit + frame.haze.rgb * 0.42;
