@@ -23,7 +23,7 @@ fn country(at: vec2f, away: f32, near_by: vec3f) -> vec3f {
     let edge = 0.55 * (ground_noise(at + 119.0, 170.0, away).r - 0.5) + 0.25 * (field - 0.5);
     let wood = smoothstep(0.60, 0.66, ground_noise(at + 195.0, 1300.0, away).r + edge) * smoothstep(220.0, 500.0, away);
     let fields = mix(vec3f(0.060, 0.082, 0.026), vec3f(0.125, 0.118, 0.048), field);
-    return mix(mix(near_by, fields, 0.7 * smoothstep(60.0, 300.0, away)), vec3f(0.026, 0.046, 0.018), wood);
+    return mix(mix(near_by, fields, 0.7 * smoothstep(60.0, 300.0, away)), vec3f(0.030, 0.056, 0.018), 0.75 * wood);
 }
 
 @fragment
