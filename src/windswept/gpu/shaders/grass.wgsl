@@ -51,7 +51,7 @@ fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance:
     var colour = mix(here.colour * 0.5, straw, rise * (0.6 + 0.4 * chance.y));
     if flower {
         // A head alone, its stalk lost among the blades: a rhomb that looks up and a little aside.
-        let spread = vec2f(select(0.0, side, corner == 2u || corner == 3u), 2.0 * rise - 1.0) * 1.8 * broad;
+        let spread = vec2f(select(0.0, side, corner == 2u || corner == 3u), 2.0 * rise - 1.0) * 1.25 * broad;
         let up = normalize(vec3f(lean, 0.8));
         let head = root + vec3f(lean * tall, tall);
         world = head + spread.x * vec3f(across, 0.0) + spread.y * cross(up, vec3f(across, 0.0));
