@@ -122,8 +122,6 @@ def check_source(source: str | Path) -> None:
 
 def _grammar_names() -> list[str]:
     """Names of the built-in grammars."""
-    try:
-        from windswept.plants.lsystem import grammar_names
-    except ImportError:
-        return []
+    from windswept.plants.lsystem import grammar_names
+
     return grammar_names()
