@@ -56,7 +56,7 @@ def test_frame_rate_does_not_matter(breezy: Wind) -> None:
             simulation.advance(1.0 / rate)
             amplitude = max(amplitude, float(np.abs(tops(simulation)).max()))
         assert simulation.step_count == 1200
-        ends.append(simulation.kinds[0].state.joints.copy())
+        ends.append(simulation.kinds[0].sets[0].state.joints.copy())
     assert amplitude > 0.01
     assert np.array_equal(ends[0], ends[1])
     assert np.array_equal(ends[0], ends[2])
@@ -67,7 +67,7 @@ def test_calm_is_still() -> None:
     simulation = Simulation(scene, plants)
     at_first = simulation.pose[0].link.copy()
     simulation.advance(3.0)
-    assert not simulation.kinds[0].state.joints.any()
+    assert not simulation.kinds[0].sets[0].state.joints.any()
     assert np.array_equal(simulation.pose[0].link, at_first)
     assert np.abs(tops(simulation)).max() < 1e-6
 

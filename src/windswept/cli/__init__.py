@@ -14,6 +14,7 @@ COMMANDS = {
     "demo": "grow a forest edge, blow a gust through it, write a video and a picture",
     "species": "list the built-in species",
     "grow": "grow one plant and report its figures",
+    "levels": "build a plant's simulation levels and measure their errors",
     "view": "live window: orbit, wind sliders, pause",
     "render": "draw a scene to a picture or a video, without a screen",
     "bench": "measure speed on this machine",

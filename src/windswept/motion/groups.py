@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numba import njit
 
@@ -23,7 +25,7 @@ from windswept.motion.rotation import add_scaled, cross, dot, rotate, rotate_bac
 _F = np.float32
 _W = np.uintp(WIDTH)
 _TINY = _F(1e-30)
-_THRESHOLD = _F(1e-7)
+_THRESHOLD: Any = _F(1e-7)
 """Pressures and rates below this, in (m/s)^2, are put to rest."""
 
 

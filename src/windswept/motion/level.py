@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from windswept.motion.model import Model
+from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats, Ints, Material
 
 GROUP_CONSTANT_COUNT = 40
@@ -45,6 +46,8 @@ class Level:
     """(G, GROUP_CONSTANT_COUNT) centre of pressure from the carrier's joint (3, m), drag tensors of leaves and of
     wood (6 each, like ``Drag.leaf``), couple and sway of the centre per pressure (3 x 3 each, row by row), factors
     of leaf and wood drag in the pressure, mobility, step (4)."""
+    group_frequency: Doubles
+    """(G,) angular frequency of each group's oscillator, rad/s."""
     group_probe: Ints
     """(G,) wind probe of each group."""
     listens: Ints
@@ -78,6 +81,7 @@ def finest_level(model: Model) -> Level:
         probe_position=model.probe_position,
         group_start=np.zeros(count + 2, np.int32),
         group_constants=np.zeros((0, GROUP_CONSTANT_COUNT), np.float32),
+        group_frequency=np.zeros(0),
         group_probe=np.zeros(0, np.int32),
         listens=links,
         influence=np.zeros((count, 2, 3), np.float32),

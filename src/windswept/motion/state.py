@@ -36,6 +36,10 @@ class State:
         """(G, 2, 3) pressure of every group of one placement and its rate."""
         return self.groups[placement // WIDTH, :, :, placement % WIDTH].reshape(-1, 2, 3)
 
+    def first_tiles(self, count: int) -> State:
+        """A view of the first tiles: stepping it steps this state."""
+        return State(self.joints[:count], self.groups[:count], self.placement_count, self.step_count)
+
 
 def rest_state(level: Level, placement_count: int) -> State:
     """State of plants at rest.

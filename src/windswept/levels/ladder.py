@@ -1,0 +1,112 @@
+"""build_ladder: a plant's simulation levels in a row, from every link down to a plant that stands still."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from windswept.levels.cut_level import cut_level
+from windswept.levels.hierarchy import Hierarchy, way_errors
+from windswept.levels.mismatch import LOG_HIGH, mismatch_table
+from windswept.motion import Level, finest_level
+from windswept.motion.drag import reconfiguration
+from windswept.motion.level import GROUP_STEP
+from windswept.motion.rods import Doubles
+
+STATED_WIND = 12.0
+"""Wind speed that the errors of a ladder are stated for, m/s."""
+STEP = 0.7
+"""Each level has at most this many times the oscillators of the one before."""
+TYPICAL_TO_95 = 2.0
+"""95th percentile over standard deviation of the mismatch."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ladder:
+    """Levels 0 (all links) to K - 1 (still), each coarser than the one before."""
+
+    hierarchy: Hierarchy
+    levels: tuple[Level, ...]
+    """Level K - 2 is `bend`: the whole plant follows the wind's pressure without inertia. K - 1 is still."""
+    error: Doubles
+    """(K,) 95 % of tips are nearer than this to where level 0 has them, m: estimated, or measured once measured."""
+
+    @property
+    def oscillators(self) -> list[int]:
+        """Links and groups that each level steps."""
+        return [level.link_count + level.group_count for level in self.levels]
+
+
+def build_ladder(hierarchy: Hierarchy) -> Ladder:
+    """Ladder of a plant, its errors estimated from the hierarchy.
+
+    Args:
+        hierarchy: of the plant.
+    """
+    levels = [finest_level(hierarchy.model)]
+    for tolerance in _tolerances(hierarchy):
+        level = cut_level(hierarchy, tolerance)
+        if level.link_count + level.group_count < STEP * (levels[-1].link_count + levels[-1].group_count):
+            levels.append(level)
+    # Without inertia a group is an oscillator of endless frequency.
+    frequencies = [level.group_frequency for level in levels] + [
+        np.full(levels[-1].group_count, np.exp(LOG_HIGH))
+    ]
+    errors = [
+        estimated_error(hierarchy, level, w)
+        for level, w in zip([*levels, levels[-1]], frequencies, strict=True)
+    ]
+    sway = np.linalg.norm(hierarchy.influence.tip, ord=2, axis=(1, 2))
+    still = TYPICAL_TO_95 * float(np.sqrt(np.mean(sway**2)))
+    levels += [_without_inertia(levels[-1]), _still(levels[-1])]
+    return Ladder(hierarchy, tuple(levels), stated_pressure(hierarchy) * np.array([*errors, still]))
+
+
+def estimated_error(hierarchy: Hierarchy, level: Level, group_frequency: Doubles) -> float:
+    """95 % error of a level's tips per pressure: twice the root mean square over the tips, s^2/m.
+
+    Args:
+        hierarchy: of the plant.
+        level: one of its levels.
+        group_frequency: (G,) angular frequency of the level's groups, rad/s.
+    """
+    model = hierarchy.model
+    skeleton = model.skeleton
+    way = way_errors(
+        skeleton.parent,
+        level.listens,
+        np.log(model.stem_frequency[skeleton.stem]),
+        np.log(np.append(group_frequency, 1.0)),
+        hierarchy.lever,
+        mismatch_table(float(model.damping_ratio.mean())),
+    )
+    tips = np.append(skeleton.stem_first_link[1:], model.link_count) - 1
+    return TYPICAL_TO_95 * float(np.sqrt(np.mean(way[tips] ** 2)))
+
+
+def stated_pressure(hierarchy: Hierarchy) -> float:
+    """The wind's pressure at the stated speed in the unit of the static shapes, (m/s)^2."""
+    folded = float(reconfiguration(hierarchy.model.material, np.array([STATED_WIND]))[0])
+    return STATED_WIND**2 * max(folded / hierarchy.influence.folded, 0.5)
+
+
+def _tolerances(hierarchy: Hierarchy) -> Doubles:
+    """Errors at which to cut: finely spaced from that of the smallest merges to that of the whole plant."""
+    error = hierarchy.error
+    low = np.quantile(error[error > 0], 0.2) if (error > 0).any() else 1e-12
+    top = error[hierarchy.root] * 1.001 + 1e-12
+    return np.append(np.geomspace(max(low, 1e-4 * top), 0.999 * top, 24), top)
+
+
+def _without_inertia(level: Level) -> Level:
+    """The same groups at rest in the wind of every moment: no state is carried from step to step."""
+    constants = level.group_constants.copy()
+    constants[:, GROUP_STEP : GROUP_STEP + 4] = 0.0
+    return replace(level, group_constants=constants)
+
+
+def _still(level: Level) -> Level:
+    """A plant that does not move: every joint listens to a group that feels nothing."""
+    constants = np.zeros_like(level.group_constants)
+    return replace(level, group_constants=constants)

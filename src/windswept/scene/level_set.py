@@ -1,0 +1,86 @@
+"""All placements of one kind that are simulated at the same level: a compact state, and who is in it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from windswept.motion import Level, Stepper, rest_state
+from windswept.motion.lanes import WIDTH
+from windswept.plants.plant import Floats, Ints
+from windswept.scene.probes import Probes, place_probes, wind_at_probes
+from windswept.scene.scene import Placements
+from windswept.scene.terrain import Terrain
+from windswept.wind.wind import Wind
+
+
+class LevelSet:
+    """Placements move in and out; the state of those that stay is not touched.
+
+    Args:
+        level: what of the plant is stepped.
+        placements: of the kind, all of them.
+        terrain: they stand on.
+        members: (M,) placements that are in the set from the beginning, at rest.
+    """
+
+    def __init__(self, level: Level, placements: Placements, terrain: Terrain, members: Ints) -> None:
+        self.level = level
+        self.stepper = Stepper(level)
+        self.members: list[int] = [int(m) for m in members]
+        """Which placement each slot of the state is."""
+        self.state = rest_state(level, len(self.members))
+        self._placements, self._terrain = placements, terrain
+        self._probes: Probes | None = None
+        self.winds: tuple[Floats, Floats] | None = None
+        """(M, B, 3) wind at both ends of the interval under way, m/s."""
+
+    def slot(self, placement: int) -> int:
+        """Slot of a member."""
+        return self.members.index(placement)
+
+    def add(self, placement: int, joints: Floats, groups: Floats) -> None:
+        """Takes a placement in with a state of its own.
+
+        Args:
+            placement: not yet a member.
+            joints: (A, 4) as in ``State``.
+            groups: (G, 6) as in ``State``.
+        """
+        slot, state = len(self.members), self.state
+        if slot == len(state.joints) * WIDTH:
+            grown = rest_state(self.level, slot + WIDTH)
+            state.joints = np.concatenate([state.joints, grown.joints[-1:]])
+            state.groups = np.concatenate([state.groups, grown.groups[-1:]])
+        self.members.append(placement)
+        state.placement_count = len(self.members)
+        self._put(slot, joints, groups)
+        self._probes = None
+
+    def remove(self, placement: int) -> None:
+        """Lets a member go; the last member takes its slot."""
+        slot, last = self.slot(placement), len(self.members) - 1
+        tile, lane = divmod(last, WIDTH)
+        self._put(slot, self.state.joints[tile, :, :, lane], self.state.groups[tile, :, :, lane])
+        self._put(last, np.float32(0.0), np.float32(0.0))
+        self.members[slot] = self.members[last]
+        self.members.pop()
+        self.state.placement_count = last
+        self._probes = None
+
+    def _put(self, slot: int, joints: Floats | np.float32, groups: Floats | np.float32) -> None:
+        tile, lane = divmod(slot, WIDTH)
+        self.state.joints[tile, :, :, lane] = joints
+        self.state.groups[tile, :, :, lane] = groups
+
+    def sample_winds(self, wind: Wind, start: float, stop: float) -> None:
+        """Samples the wind at both ends of an interval, s."""
+        if self._probes is None:
+            chosen = Placements(self._placements.position[self.members], self._placements.yaw[self.members])
+            self._probes = place_probes(self.level, chosen, self._terrain)
+        self.winds = wind_at_probes(wind, self._probes, start), wind_at_probes(wind, self._probes, stop)
+
+    def step(self, count: int, taken: int, interval: int) -> None:
+        """Takes ``count`` inner steps of the interval, of which ``taken`` were taken before."""
+        if self.members and self.winds is not None:
+            tiles = -(-len(self.members) // WIDTH)
+            self.stepper.step(self.state.first_tiles(tiles), *self.winds, count, taken, interval)

@@ -1,0 +1,75 @@
+"""A forest with and without simulation levels: links stepped and time per step, seen by a camera in its midst."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from windswept.plants.weber_penn import grow
+from windswept.scene.camera import standing_camera
+from windswept.scene.load_scene import load_scene
+from windswept.scene.scene import Placements, PlantKind, Scene
+from windswept.scene.simulation import Simulation
+
+PLACEMENTS = 1_000
+SPACING = 8.0
+"""Mean distance between neighbours, m."""
+KINDS = (("quaking_aspen", 0), ("scots_pine", 0), ("hazel", 0), ("quaking_aspen", 3))
+SECONDS = 0.5
+"""Simulated for each timing."""
+
+
+def bench_forest(say: Callable[[str], None] = lambda line: None) -> dict[str, float]:
+    """Figures ``forest.<placements>.*`` and ``choose.share_of_step``."""
+    scene = forest()
+    plants = [grow(kind.source, kind.seed) for kind in scene.kinds]
+    name = f"forest.{PLACEMENTS}"
+    say(f"{name}, every link")
+    full = Simulation(scene, plants)
+    ms_full = milliseconds_per_step(full)
+    say(f"{name}, at levels")
+    levelled = Simulation(scene, plants, levels=True, picture_height=1080)
+    ms_active = milliseconds_per_step(levelled)
+    choosing = milliseconds_to_choose(levelled)
+    return {
+        f"{name}.links_full": full.stepped_count,
+        f"{name}.links_active": levelled.stepped_count,
+        f"{name}.ms_full": ms_full,
+        f"{name}.ms_active": ms_active,
+        "choose.share_of_step": choosing / (4.0 * ms_active),
+    }
+
+
+def forest() -> Scene:
+    """A thousand trees of four kinds round a camera at eye height."""
+    rng = np.random.default_rng(0)
+    side = SPACING * np.sqrt(PLACEMENTS)
+    kind = rng.integers(0, len(KINDS), PLACEMENTS)
+    position = np.zeros((PLACEMENTS, 3), np.float32)
+    position[:, :2] = rng.uniform(-0.5 * side, 0.5 * side, (PLACEMENTS, 2))
+    yaw = rng.uniform(0.0, 2.0 * np.pi, PLACEMENTS).astype(np.float32)
+    return replace(
+        load_scene("hazel"),
+        kinds=tuple(PlantKind(*one) for one in KINDS),
+        placements=tuple(Placements(position[kind == k], yaw[kind == k]) for k in range(len(KINDS))),
+        camera=standing_camera(np.array([0.0, 0.0, 1.7]), np.array([10.0, 0.0, 3.0]), np.radians(60.0)),
+    )
+
+
+def milliseconds_per_step(simulation: Simulation) -> float:
+    """Wall time of one inner step of all plants, wind and choice of levels included, ms."""
+    simulation.advance(0.1)
+    before, started = simulation.step_count, time.perf_counter()
+    simulation.advance(SECONDS)
+    return 1e3 * (time.perf_counter() - started) / (simulation.step_count - before)
+
+
+def milliseconds_to_choose(simulation: Simulation, repeats: int = 20) -> float:
+    """Wall time of choosing the levels of all plants, ms; it is done once in four inner steps."""
+    started = time.perf_counter()
+    for _ in range(repeats):
+        simulation.change_levels()
+    return 1e3 * (time.perf_counter() - started) / repeats
