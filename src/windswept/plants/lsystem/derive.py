@@ -228,7 +228,7 @@ class Rewriter:
 
     def _no_value(self, line: int, error: Exception) -> InputError:
         reasons = {RecursionError: "too long an expression", OverflowError: "a number too large"}
-        said = "a root, logarithm or arc of a number that has none"
+        said = "a power, remainder, root, logarithm or arc that there is not"
         reason = reasons.get(
             type(error), "division by zero" if isinstance(error, ZeroDivisionError) else said
         )

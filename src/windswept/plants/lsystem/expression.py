@@ -79,6 +79,11 @@ def _number(node: Node, scope: Scope) -> float:
     return float(str(node.children[0]).rstrip("fF"))
 
 
+def _text(node: Node, scope: Scope) -> float:
+    """Texts are labels, which the turtle does not draw."""
+    return 0.0
+
+
 def _name(node: Node, scope: Scope) -> float | Expression:
     name = str(node.children[0])
     if name in scope.slots:
@@ -158,6 +163,7 @@ def _folded(parts: list[float | Expression], code: Expression) -> float | Expres
 
 _COMPILERS: dict[str, Callable[[Node, Scope], float | Expression]] = {
     "number": _number,
+    "text": _text,
     "name": _name,
     "call": _call,
     "unary": _unary,

@@ -28,7 +28,7 @@ _MODULE = re.compile(r"\s*module\s+([^:]+?)\s*(?::.*)?$")
 _PYTHON = re.compile(
     r"\s*(def|class|import|from|for|while|if|elif|else|try|except|finally|with|return|yield|lambda|print|global"
     r"|raise|assert|del|pass|produce|nproduce|nsproduce|makestring|context|exec|eval|extern|async|match)\b"
-    r"|\s*@|.*\bproduce\b"
+    r"|\s*@"
 )
 """Lines that are Python."""
 _LONGEST_NAMES = 200
@@ -116,6 +116,7 @@ def _with_short_names(line: str, symbols: dict[str, str]) -> str:
 def _refuse_python(line: Line, source: str) -> None:
     """Raise InputError where a line can only be Python."""
     text = line.text.rstrip()
-    if "-->" not in text and (_PYTHON.match(text) or re.search(r"\)\s*:$", text)):
+    is_python = "-->" not in text and (_PYTHON.match(text) or re.search(r"\)\s*:$", text))
+    if is_python or re.search(r"\bproduce\b", text):
         expected = "a rule pred --> succ, a header or NAME = number; Python code is not run"
         raise InputError(source, f"line {line.number}", shown(one_line(text)), expected)
