@@ -39,19 +39,23 @@ def command(size: tuple[int, int], headless: bool) -> None:
         return
     video, picture = Path("windswept-demo.mp4"), Path("windswept-demo.png")
     figures = render_scene(scene, video, size)
-    render_scene(scene, picture, size, at=PICTURE_TIME)
+    render_scene(scene, picture, size, PICTURE_TIME)
     click.echo(f"{video} and {picture}")
     click.echo(
-        f"{figures['plants']} plants of {figures['kinds']} kinds, {figures['links']:,} links; "
+        f"{figures['plants']} plants of {figures['kinds']} kinds, {figures['links']:,} links, of which "
+        f"{figures['stepped']:,} oscillators were stepped; "
         f"{figures['simulated_s']:g} s simulated, drawn in {figures['draw_seconds']:g} s"
     )
+    for level, count in enumerate(figures["placements_by_level"]):
+        if count:
+            click.echo(f"  simulation level {level}: {count} plants")
     click.echo(f"simulation alone: {steps_per_second(scene):,.0f} inner steps a second")
 
 
 def steps_per_second(scene: Scene, seconds: float = 0.5) -> float:
     """Inner steps of the whole scene that this machine takes in a second, without drawing."""
     with status_line("timing the simulation"):
-        simulation = Simulation(scene).advance(0.1)
+        simulation = Simulation(scene, levels=True).advance(0.1)
         before, started = simulation.step_count, time.perf_counter()
         while time.perf_counter() - started < seconds:
             simulation.advance(0.1)

@@ -39,6 +39,9 @@ def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, in
     "--duration", type=click.FloatRange(0.01, 3600.0), help="Length of a video instead of the scene's, s."
 )
 @click.option("--seed", type=click.IntRange(0), help="Instead of the scene's.")
+@click.option(
+    "--levels/--no-levels", default=True, help="Simulate far plants at coarser levels (default) or not."
+)
 @click.option("--json", "as_json", is_flag=True, help="Report as one JSON object.")
 def command(
     source: str,
@@ -47,6 +50,7 @@ def command(
     at: float | None,
     duration: float | None,
     seed: int | None,
+    levels: bool,
     as_json: bool,
 ) -> None:
     """Draw SCENE (a scene file, or a SOURCE: a lone plant) to a picture or a video, without a screen.
@@ -59,20 +63,20 @@ def command(
     scene = load_scene(source, seed)
     if duration is not None:
         scene = replace(scene, duration=duration)
-    figures = render_scene(scene, output, size, at)
+    figures = render_scene(scene, output, size, at, levels)
     if as_json:
         click.echo(json.dumps(figures))
 
 
 def render_scene(
-    scene: Scene, output: Path, size: tuple[int, int], at: float | None = None
+    scene: Scene, output: Path, size: tuple[int, int], at: float | None = None, levels: bool = True
 ) -> dict[str, Any]:
     """Simulates and draws a scene with progress on stderr, and says what it took."""
     from windswept.render.film import film
 
     started = time.perf_counter()
     with status_line("growing plants") as say:
-        simulation = Simulation(scene, say=say)
+        simulation = Simulation(scene, levels=levels, picture_height=size[1], say=say)
     ready = time.perf_counter()
     with progress_bar(f"drawing {output.name}") as progress:
         film(simulation, output, size, at, progress)
@@ -82,6 +86,8 @@ def render_scene(
         "plants": scene.placement_count,
         "kinds": len(scene.kinds),
         "links": simulation.link_count,
+        "stepped": simulation.stepped_count,
+        "placements_by_level": simulation.placements_by_level,
         "simulated_s": round(simulation.time, 3),
         "grow_seconds": round(ready - started, 2),
         "draw_seconds": round(drawn, 2),

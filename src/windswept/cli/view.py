@@ -6,12 +6,17 @@ import math
 from dataclasses import replace
 
 import click
+import numpy as np
 
 from windswept.cli.progress import status_line
+from windswept.levels import Eye
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Scene
 from windswept.scene.simulation import Simulation
 from windswept.wind.wind import Wind
+
+PICTURE_HEIGHT = 720
+"""Pixels that the window opens with; simulation levels are chosen for it."""
 
 
 @click.command("view")
@@ -39,14 +44,16 @@ def view_scene(scene: Scene) -> None:
 
     require_display()
     with status_line("growing plants") as say:
-        simulation = Simulation(scene, say=say)
+        simulation = Simulation(scene, levels=True, say=say)
         plants = [kind.plant for kind in simulation.kinds]
         geometries = [build_geometry(plant) for plant in plants]
 
     def advance(seconds: float, controls: Controls, camera: Camera) -> Frame:
         simulation.wind = blown(scene.wind, controls.wind_speed, controls.wind_heading)
+        simulation.eye = Eye(np.array(camera.eye, np.float32), camera.fov_y, PICTURE_HEIGHT)
         simulation.advance(seconds)
-        controls.counters = f"{simulation.link_count:,} links, {simulation.time:.1f} s"
+        links = f"{simulation.stepped_count:,} of {simulation.link_count:,} links stepped"
+        controls.counters = f"{links}, {simulation.time:.1f} s"
         return replace(frame_now(simulation), camera=camera)
 
     mean = scene.wind.mean

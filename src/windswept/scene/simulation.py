@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+import numpy as np
+
 from windswept.levels import Eye
 from windswept.motion import TIME_STEP
 from windswept.plants.plant import Floats, Plant
@@ -93,6 +95,11 @@ class Simulation:
     def stepped_count(self) -> int:
         """Links and groups that are stepped, over all placements."""
         return sum(kind.stepped_count for kind in self.kinds)
+
+    @property
+    def placements_by_level(self) -> list[int]:
+        """How many placements are at each level, over all kinds."""
+        return np.bincount(np.concatenate([kind.at for kind in self.kinds])).tolist()
 
     def change_levels(self, at_once: bool = False) -> None:
         """Lets every placement go to the level that the camera asks for."""
