@@ -34,7 +34,7 @@ def parse_xml(path: Path) -> tuple[Any, bool]:
     except ParseError as error:
         line = error.position[0]
         raise InputError(
-            source, f"line {line}", None, f"well-formed XML ({error.msg.split(':')[0]})"
+            source, f"line {line}", None, f"well-formed XML ({str(error).split(':')[0]})"
         ) from None
     except DefusedXmlException:
         raise InputError(source, "", None, "XML without entities or outside references") from None

@@ -86,13 +86,15 @@ class Rewriter:
         """One step: every module replaced by the successor of its rule, all at once."""
         rewriting, result = self.system.production, Word()
         neighbours = self._neighbours(word) if rewriting.has_context else None
+        changing = rewriting.symbols
         self._spend(len(word))
         for place, (symbol, params) in enumerate(zip(word.symbols, word.params, strict=True)):
-            choice = self.choose(rewriting, symbol, params, place, neighbours)
+            changes = symbol in changing
+            choice = self.choose(rewriting, symbol, params, place, neighbours) if changes else None
             if choice is None:
                 result.add(symbol, params)
-            else:
-                self.write(choice[0].successor, choice[1], choice[0].line, result)
+                continue
+            self.write(choice[0].successor, choice[1], choice[0].line, result)
             if len(result) > self.budget:
                 raise self._too_long(len(result))
         return result
@@ -100,29 +102,36 @@ class Rewriter:
     def decompose(self, word: Word) -> Word:
         """Every module taken apart as long as a rule of the decomposition applies."""
         rewriting = self.system.decomposition
-        if not rewriting.rules:
+        symbols = rewriting.symbols
+        if symbols.isdisjoint(word.symbols):
             return word
         result = Word()
+        for symbol, params in zip(word.symbols, word.params, strict=True):
+            if symbol in symbols:
+                self._take_apart(rewriting, symbol, params, result)
+            else:
+                result.add(symbol, params)
+        return result
+
+    def _take_apart(self, rewriting: Rewriting, symbol: str, params: Params, result: Word) -> None:
+        """Put the last parts of one module at the end of a word."""
         limit = rewriting.depth or DECOMPOSITION_DEPTH
-        waiting = [(symbol, params, 0) for symbol, params in zip(word.symbols, word.params, strict=True)]
-        waiting.reverse()
+        waiting = [(symbol, params, 0)]
         while waiting:
             symbol, params, depth = waiting.pop()
             choice = self.choose(rewriting, symbol, params) if depth < limit else None
             if choice is None:
-                if depth == DECOMPOSITION_DEPTH:
+                if rewriting.depth is None and depth == DECOMPOSITION_DEPTH:
                     raise BudgetError(self.message(f"decomposition goes deeper than {depth:,}"))
                 result.add(symbol, params)
-            else:
-                part = Word()
-                self.write(choice[0].successor, choice[1], choice[0].line, part)
-                self._spend(len(part))
-                waiting.extend(
-                    (s, p, depth + 1) for s, p in zip(part.symbols[::-1], part.params[::-1], strict=True)
-                )
+                continue
+            part = Word()
+            self.write(choice[0].successor, choice[1], choice[0].line, part)
+            self._spend(len(part))
+            parts = zip(part.symbols[::-1], part.params[::-1], strict=True)
+            waiting.extend((s, p, depth + 1) for s, p in parts)
             if len(result) + len(waiting) > self.budget:
                 raise self._too_long(len(result) + len(waiting))
-        return result
 
     def choose(
         self,

@@ -25,7 +25,7 @@ def interpret(word: Word, rewriter: Rewriter) -> Iterator[tuple[str, Params]]:
         BudgetError: the image is longer than the module budget.
     """
     rewriting = rewriter.system.homomorphism
-    symbols = {symbol for symbol, _ in rewriting.rules}
+    symbols = rewriting.symbols
     limit = DEEPEST if rewriting.depth is None else min(rewriting.depth, DEEPEST)
     count = 0
     for symbol, params in zip(word.symbols, word.params, strict=True):

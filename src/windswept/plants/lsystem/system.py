@@ -49,6 +49,11 @@ class Rewriting:
     """`maximum depth`; only of a decomposition or a homomorphism."""
 
     @property
+    def symbols(self) -> frozenset[str]:
+        """Symbols that have a rule, with whatever number of parameters."""
+        return frozenset(symbol for symbol, _ in self.rules)
+
+    @property
     def has_context(self) -> bool:
         """Whether any rule looks at its neighbours."""
         return any(rule.left or rule.right for family in self.rules.values() for rule in family)
