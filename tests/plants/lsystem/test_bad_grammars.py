@@ -89,8 +89,8 @@ def test_files_that_are_no_text(tmp_path):
         grow_lsystem(tmp_path)
     with pytest.raises(InputError, match="expected a file that exists"):
         grow_lsystem(tmp_path / "none.l")
-    path.write_bytes(b"Axiom: F /* " + b"x" * (1 << 20) + b" */")
-    with pytest.raises(InputError, match="of at most 1,048,576 bytes"):
+    path.write_bytes(b"Axiom: F /* " + b"x" * (1 << 18) + b" */")
+    with pytest.raises(InputError, match="of at most 262,144 bytes"):
         grow_lsystem(path)
 
 

@@ -14,8 +14,9 @@ from windswept.plants.lsystem.system import Params, Piece, Rewriting, Rule, Syst
 
 MODULE_BUDGET = 2_000_000
 """Most modules of a string."""
-WORK_FACTOR = 10
-"""Modules rewritten over all steps, over the module budget: long derivations of long strings take hours."""
+COPY_WORK = 0.1
+"""Work of copying a module over that of looking for its rule. The work of all steps keeps to the module budget
+too, or long derivations of long strings would take hours."""
 DECOMPOSITION_DEPTH = 1000
 """How often a module is taken apart in a row where the grammar states no `maximum depth`."""
 
@@ -80,14 +81,13 @@ class Rewriter:
         self.system, self.dice, self.budget = system, dice, module_budget
         self.step = 0
         """Step that is being taken, for error messages."""
-        self._work = 0
+        self._work = 0.0
 
     def produce(self, word: Word) -> Word:
         """One step: every module replaced by the successor of its rule, all at once."""
         rewriting, result = self.system.production, Word()
         neighbours = self._neighbours(word) if rewriting.has_context else None
         changing = rewriting.symbols
-        self._spend(len(word))
         for place, (symbol, params) in enumerate(zip(word.symbols, word.params, strict=True)):
             changes = symbol in changing
             choice = self.choose(rewriting, symbol, params, place, neighbours) if changes else None
@@ -97,6 +97,8 @@ class Rewriter:
             self.write(choice[0].successor, choice[1], choice[0].line, result)
             if len(result) > self.budget:
                 raise self._too_long(len(result))
+        copied = sum(symbol not in changing for symbol in word.symbols)
+        self._spend(len(word) - copied + COPY_WORK * copied)
         return result
 
     def decompose(self, word: Word) -> Word:
@@ -220,11 +222,11 @@ class Rewriter:
             return Neighbours(word.symbols, word.params, considered.__contains__)
         return Neighbours(word.symbols, word.params, lambda symbol: symbol not in ignored)
 
-    def _spend(self, count: int) -> None:
+    def _spend(self, work: float) -> None:
         """Keep to the budget of work."""
-        self._work += count
-        if self._work > WORK_FACTOR * self.budget:
-            raise BudgetError(self.message(f"{self._work:,} modules rewritten in all"))
+        self._work += work
+        if self._work > self.budget:
+            raise BudgetError(self.message(f"{self._work:,.0f} modules rewritten in all"))
 
     def _too_long(self, count: int) -> BudgetError:
         return BudgetError(self.message(f"{count:,} modules"))

@@ -8,7 +8,7 @@ from pathlib import Path
 from windswept.errors import InputError
 from windswept.forms.read_text import read_bytes, shown_path
 
-LARGEST_FILE = 1 << 20
+LARGEST_FILE = 1 << 18
 """A grammar is a page of text; anything above this many bytes is not one."""
 
 _STRANGERS = (
