@@ -23,10 +23,8 @@ from windswept.plants.pose import rest_pose
 Doubles = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-SIDES = ((0.05, 16), (0.015, 8), (0.004, 5), (0.0, 3))
-"""Sides of a stem by its least radius, m."""
-STEPS = 4
-"""Rings along one Bezier piece, less one."""
+MESHES = ((0.05, 16, 16), (0.015, 8, 6), (0.004, 5, 4), (0.0, 3, 3))
+"""Sides of a stem, and steps along each of its Bezier pieces, by its least radius in m."""
 CHUNK = 20_000
 """Pieces that are meshed at a time."""
 
@@ -57,9 +55,9 @@ def _write(plant: Plant, stream: IO[str]) -> None:
     stream.write(f"# {plant.species}, seed {plant.seed}: metres, +Z up\n")
     stream.write("g bark\n")
     written = 0
-    for sides, pieces in _by_thickness(geometry):
+    for sides, steps, pieces in _by_thickness(geometry):
         for start in range(0, len(pieces), CHUNK):
-            vertices, faces = _tubes(geometry, curves, pieces[start : start + CHUNK], sides)
+            vertices, faces = _tubes(geometry, curves, pieces[start : start + CHUNK], sides, steps)
             _write_mesh(stream, vertices, faces + written)
             written += len(vertices)
     if plant.leaf_count:
@@ -68,19 +66,21 @@ def _write(plant: Plant, stream: IO[str]) -> None:
         _write_mesh(stream, vertices, faces + written)
 
 
-def _by_thickness(geometry: Geometry) -> list[tuple[int, Indices]]:
-    """Number of sides, and the pieces of the stems that are drawn with it."""
+def _by_thickness(geometry: Geometry) -> list[tuple[int, int, Indices]]:
+    """Numbers of sides and steps, and the pieces of the stems that are drawn with them."""
     radius = geometry.stem_radius[geometry.piece_stem]
     groups, upper = [], np.inf
-    for least, sides in SIDES:
-        groups.append((sides, np.flatnonzero((radius >= least) & (radius < upper))))
+    for least, sides, steps in MESHES:
+        groups.append((sides, steps, np.flatnonzero((radius >= least) & (radius < upper))))
         upper = least
     return groups
 
 
-def _tubes(geometry: Geometry, curves: PosedCurves, pieces: Indices, sides: int) -> tuple[Doubles, Indices]:
+def _tubes(
+    geometry: Geometry, curves: PosedCurves, pieces: Indices, sides: int, steps: int
+) -> tuple[Doubles, Indices]:
     """(n, 3) vertices and (m, 3) triangles of open tubes round some pieces."""
-    rings = STEPS + 1
+    rings = steps + 1
     piece = np.repeat(pieces, rings * sides).astype(np.int32)
     t = np.tile(np.repeat(np.linspace(0.0, 1.0, rings), sides), len(pieces))
     angle = np.tile(2.0 * np.pi * np.arange(sides) / sides, len(pieces) * rings)
@@ -89,7 +89,7 @@ def _tubes(geometry: Geometry, curves: PosedCurves, pieces: Indices, sides: int)
     low, right = side, (side + 1) % sides
     first, second = np.stack((low, right, right + sides), 1), np.stack((low, right + sides, low + sides), 1)
     ring = np.concatenate((first, second))
-    tube = (ring[None] + sides * np.arange(STEPS)[:, None, None]).reshape(-1, 3)
+    tube = (ring[None] + sides * np.arange(steps)[:, None, None]).reshape(-1, 3)
     faces = tube[None] + rings * sides * np.arange(len(pieces))[:, None, None]
     return position, faces.reshape(-1, 3)
 

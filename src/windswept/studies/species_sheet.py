@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -80,7 +81,7 @@ def draw_sheet(
     write_png(np.asarray(sheet), path)
 
 
-def draw_with_person(source: str, seed: int = 0) -> object:
+def draw_with_person(source: str, seed: int = 0) -> Any:
     """A Pillow picture of one plant in calm air, a person beside it, and its name and height below."""
     from PIL import Image, ImageDraw
 
