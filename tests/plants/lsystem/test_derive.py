@@ -49,7 +49,7 @@ def test_parametric_rules_and_conditions(derived):
     ]
     rules.append("B(x) : x >= 1 --> B(x - 1)")
     words = [derived(grammar(n, "B(2)A(4, 4)", *rules)) for n in range(5)]
-    # ABOP eq. 1.? (p. 42): its worked derivation, word for word
+    # the worked derivation of ABOP section 1.10.1, word for word
     assert words == ["B(2)A(4,4)", "B(1)B(4)A(1,0)", "B(0)B(3)A(2,1)", "CB(2)A(4,3)", "CB(1)A(8,7)"]
 
 

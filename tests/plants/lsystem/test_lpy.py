@@ -102,6 +102,11 @@ def test_the_trailer_of_the_editor_is_not_run(tmp_path):
     assert not (tmp_path / "marker").exists()
 
 
+def test_long_names_come_back_in_messages():
+    with pytest.raises(InputError, match=r"line 3: .* stops to be one at \)Leaf"):
+        read_lpy("module Leaf\nAxiom: F\nF --> F)Leaf\n", "t.lpy")
+
+
 def test_empty_and_without_axiom():
     with pytest.raises(InputError, match="the file is empty"):
         read_lpy(" \n", "t.lpy")

@@ -61,7 +61,12 @@ def read_lpy(text: str, source: str) -> System:
             lines.append(Line(number, _with_short_names(line, symbols)))
     for line_ in lines:
         _refuse_python(line_, source)
-    return build_system(split_statements(lines), draft)
+    try:
+        return build_system(split_statements(lines), draft)
+    except InputError as error:
+        raise InputError(
+            source, error.place, error.value, _with_long_names(error.expected, symbols)
+        ) from None
 
 
 def _without_comment(line: str) -> str:
@@ -111,6 +116,13 @@ def _with_short_names(line: str, symbols: dict[str, str]) -> str:
         if depth == 0 and part != ")":
             parts[i] = pattern.sub(lambda found: symbols.get(found[0], "#"), part)
     return "".join(parts)
+
+
+def _with_long_names(message: str, symbols: dict[str, str]) -> str:
+    """A message with the names that the file declares in place of what stands for them."""
+    for name, symbol in symbols.items():
+        message = message.replace(symbol, name).replace(repr(symbol)[1:-1], name)
+    return message
 
 
 def _refuse_python(line: Line, source: str) -> None:
