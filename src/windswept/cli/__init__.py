@@ -15,6 +15,7 @@ COMMANDS = {
     "species": "list the built-in species",
     "grow": "grow one plant and report its figures",
     "levels": "build a plant's simulation levels and measure their errors",
+    "reproduce": "make a founding paper's table beside ours",
     "view": "live window: orbit, wind sliders, pause",
     "render": "draw a scene to a picture or a video, without a screen",
     "bench": "measure speed on this machine",
