@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from windswept.errors import BudgetError, GraphicsError, InputError, WindsweptError
     from windswept.plants.plant import Plant
     from windswept.plants.pose import Pose
+    from windswept.plants.sources import grow_source
     from windswept.plants.species import load_species, species_names
     from windswept.plants.weber_penn import grow
     from windswept.scene.load_scene import load_scene
@@ -47,6 +48,7 @@ _HOMES = {
     "Simulation": "windswept.scene.simulation",
     "WindsweptError": "windswept.errors",
     "grow": "windswept.plants.weber_penn",
+    "grow_source": "windswept.plants.sources",
     "load_scene": "windswept.scene.load_scene",
     "load_species": "windswept.plants.species",
     "species_names": "windswept.plants.species",
@@ -62,6 +64,7 @@ __all__ = [
     "Simulation",
     "WindsweptError",
     "grow",
+    "grow_source",
     "load_scene",
     "load_species",
     "species_names",

@@ -42,17 +42,21 @@ class Level(Form):
     rotate: Angle = 0.0
     """nRotate, turn round the parent from one stem to the next; negative: to alternate sides. Not on level 0."""
     rotate_v: Angle = 0.0
+    """nRotateV."""
     branches: Annotated[int, Field(ge=0, le=1000)] = 0
     """nBranches, most stems of this level on one parent; not used on level 0."""
     length: Annotated[float, Field(ge=0, le=10)] = 0.0
     """nLength, as a fraction of the parent's length (level 0: of the tree's scale)."""
     length_v: Annotated[float, Field(ge=0, le=10)] = 0.0
+    """nLengthV, by how much length differs from stem to stem."""
     taper: Annotated[float, Field(ge=0, le=3)] = 1.0
     """nTaper: 0 cylinder, 1 cone, 2 rounded end, 3 beads."""
     seg_splits: Annotated[float, Field(ge=0, le=4)] = 0.0
     """nSegSplits, mean number of clones at the end of a segment."""
     split_angle: Annotated[float, Field(ge=0, le=180)] = 0.0
+    """nSplitAngle, by which a fork opens."""
     split_angle_v: Annotated[float, Field(ge=0, le=180)] = 0.0
+    """nSplitAngleV."""
     curve_res: Annotated[int, Field(ge=1, le=64)] = 1
     """nCurveRes, number of segments of a stem."""
     curve: Angle = 0.0
@@ -74,6 +78,7 @@ class Growth(Form):
     scale: Annotated[float, Field(ge=0.05, le=150)]
     """Scale, m."""
     scale_v: Annotated[float, Field(ge=0, le=150)] = 0.0
+    """ScaleV, by how much trees differ, m."""
     base_size: Annotated[float, Field(ge=0, le=0.95)] = 0.0
     """BaseSize, bare fraction of the trunk."""
     ratio: Annotated[float, Field(ge=0.001, le=0.5)]
@@ -81,8 +86,11 @@ class Growth(Form):
     ratio_power: Annotated[float, Field(ge=0, le=5)] = 1.0
     """RatioPower, how fast radius falls with length from parent to child."""
     flare: Annotated[float, Field(ge=0, le=10)] = 0.0
+    """Flare, by how much the trunk widens at its foot: 1 doubles its radius."""
     lobes: Annotated[int, Field(ge=0, le=32)] = 0
+    """Lobes round the trunk."""
     lobe_depth: Annotated[float, Field(ge=0, le=0.9)] = 0.0
+    """LobeDepth, over the radius."""
     base_splits: Annotated[int, Field(ge=0, le=32)] = 0
     """0BaseSplits, clones of the trunk at the end of its first segment."""
     leaves: Annotated[int, Field(ge=-1000, le=1000)] = 0
@@ -104,11 +112,15 @@ class Growth(Form):
     prune_width_peak: Annotated[float, Field(ge=0, le=0.99)] = 0.5
     """PruneWidthPeak, fraction of the crown's height at which the envelope is widest."""
     prune_power_low: Annotated[float, Field(ge=0, le=10)] = 0.5
+    """PrunePowerLow: 1 straight, less bulges out, more caves in, below the peak."""
     prune_power_high: Annotated[float, Field(ge=0, le=10)] = 0.5
+    """PrunePowerHigh: the same above the peak."""
     scale_0: Annotated[float, Field(ge=0.1, le=10)] = 1.0
     """0Scale, factor on the trunk's radius alone."""
     scale_v_0: Annotated[float, Field(ge=0, le=10)] = 0.0
+    """0ScaleV."""
     level: Annotated[list[Level], Field(min_length=1, max_length=5)]
+    """`[[growth.level]]`, one for each order and one for the leaves."""
 
     def at(self, order: int) -> Level:
         """The table that serves a branching order."""
@@ -119,36 +131,57 @@ class MaterialForm(Form):
     """The fields of `Material`."""
 
     youngs_modulus: Annotated[float, Field(ge=1e6, le=1e11)] = _MATERIAL["youngs_modulus"]
+    """Bending modulus of green wood, Pa."""
     wood_density: Annotated[float, Field(ge=50, le=2000)] = _MATERIAL["wood_density"]
+    """Green wood, kg/m3."""
     damping_ratio: Annotated[float, Field(ge=0, le=1)] = _MATERIAL["damping_ratio"]
+    """Structural damping over critical, without the air."""
     leaf_mass: Annotated[float, Field(ge=0.001, le=20)] = _MATERIAL["leaf_mass"]
+    """Fresh leaf mass per area, kg/m2."""
     leaf_drag: Annotated[float, Field(ge=0, le=5)] = _MATERIAL["leaf_drag"]
+    """Drag coefficient of a leaf square to slow wind."""
     wood_drag: Annotated[float, Field(ge=0, le=5)] = _MATERIAL["wood_drag"]
+    """Drag coefficient of a bare stem across the wind."""
     reconfiguration: Annotated[float, Field(ge=-2, le=0)] = _MATERIAL["reconfiguration"]
+    """Exponent V: leaf drag grows as speed^(2+V) once leaves fold (Vogel)."""
     reconfiguration_speed: Annotated[float, Field(ge=0.1, le=100)] = _MATERIAL["reconfiguration_speed"]
+    """Wind speed at which leaves begin to fold, m/s."""
 
 
 class LookForm(Form):
     """The fields of `Look`."""
 
     bark_colour: Colour = _LOOK["bark_colour"]
+    """Linear RGB."""
     bark_relief: Share = _LOOK["bark_relief"]
+    """Depth of the bark: 0 smooth, 1 deeply furrowed."""
     leaf_colour: Colour = _LOOK["leaf_colour"]
+    """Linear RGB of the upper face."""
     leaf_back_colour: Colour = _LOOK["leaf_back_colour"]
+    """Linear RGB of the lower face."""
     leaf_shape: Literal["oval", "round", "lance", "lobed", "needle"] = _LOOK["leaf_shape"]
+    """Outline of a leaf."""
     leaf_flutter: Share = _LOOK["leaf_flutter"]
+    """How readily a leaf trembles: 0 stiff, 1 aspen."""
 
 
 class Species(Form):
     """Everything a species file says."""
 
     name: Identifier
+    """What the plant is called in files and commands."""
     common_name: Line
+    """What people call it."""
     latin_name: Line = ""
+    """What botanists call it."""
     summary: Line = ""
+    """One line for `windswept species`."""
     growth: Growth
+    """`[growth]`"""
     material: MaterialForm = MaterialForm()
+    """`[material]`"""
     look: LookForm = LookForm()
+    """`[look]`"""
 
     def plant_material(self) -> Material:
         """What the plant's wood and leaves are made of."""

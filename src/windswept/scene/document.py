@@ -1,58 +1,29 @@
-"""The tables of docs/scene-file.md, made from the forms so that the two never differ.
+"""Writes the tables of keys into docs/scene-file.md and docs/plants.md.
 
-Run ``python -m windswept.scene.document docs/scene-file.md`` after a change of the forms.
+Run ``python -m windswept.scene.document docs`` after a change of the forms.
 """
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Any
 
 from pydantic import BaseModel
 
-from windswept.forms.check_form import inner_form
-from windswept.forms.words import field_words, is_list
+from windswept.forms.document import with_key_tables
+from windswept.plants.species_form import Species
 from windswept.scene.form import SceneForm
 
-BEGIN, END = "<!-- keys begin -->", "<!-- keys end -->"
+FORMS: dict[str, type[BaseModel]] = {"scene-file.md": SceneForm, "plants.md": Species}
+"""Which form each document describes."""
 
 
-def key_tables() -> str:
-    """Markdown: a heading and a table for every table of a scene file."""
-    return "\n".join(_sections(SceneForm, ""))
-
-
-def with_key_tables(text: str) -> str:
-    """A document with what stands between its marks replaced by ``key_tables``."""
-    head, rest = text.split(BEGIN)
-    return f"{head}{BEGIN}\n\n{key_tables()}\n{END}{rest.split(END)[1]}"
-
-
-def _sections(form: type[BaseModel], path: str) -> list[str]:
-    """Section of a form and of those inside it, depth first."""
-    lines = [f"### {path or 'Top of the file'}", "", form.__doc__ or "", ""]
-    lines += ["| key | what it takes | default | meaning |", "|---|---|---|---|"]
-    inner: list[str] = []
-    for name, field in form.model_fields.items():
-        default = "**required**" if field.is_required() else _default(field.default)
-        lines.append(f"| `{name}` | {field_words(field)} | {default} | {field.description} |")
-        table = inner_form(field)
-        if table is not None:
-            name = f"{path.strip('[]')}.{name}".lstrip(".")
-            inner += _sections(table, f"[[{name}]]" if is_list(field) else f"[{name}]")
-    return [*lines, "", *inner]
-
-
-def _default(value: Any) -> str:
-    """A default as a scene file would write it; empty where a left-out key is explained in words."""
-    if value is None or isinstance(value, BaseModel | list):
-        return ""
-    if isinstance(value, tuple):
-        return f"`[{', '.join(map(str, value))}]`"
-    return f'`"{value}"`' if isinstance(value, str) else f"`{value}`"
+def write_documents(folder: Path) -> None:
+    """Bring the tables of all documents in a folder up to date."""
+    for name, form in FORMS.items():
+        text = (folder / name).read_text(encoding="utf-8")
+        (folder / name).write_text(with_key_tables(text, form), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    document = Path(sys.argv[1])
-    document.write_text(with_key_tables(document.read_text(encoding="utf-8")), encoding="utf-8")
+    write_documents(Path(sys.argv[1]))
