@@ -42,6 +42,9 @@ def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, in
 @click.option(
     "--levels/--no-levels", default=True, help="Simulate far plants at coarser levels (default) or not."
 )
+@click.option(
+    "--level-colours", is_flag=True, help="Colour plants by simulation level: red every link, violet one."
+)
 @click.option("--json", "as_json", is_flag=True, help="Report as one JSON object.")
 def command(
     source: str,
@@ -51,6 +54,7 @@ def command(
     duration: float | None,
     seed: int | None,
     levels: bool,
+    level_colours: bool,
     as_json: bool,
 ) -> None:
     """Draw SCENE (a scene file, or a SOURCE: a lone plant) to a picture or a video, without a screen.
@@ -63,13 +67,18 @@ def command(
     scene = load_scene(source, seed)
     if duration is not None:
         scene = replace(scene, duration=duration)
-    figures = render_scene(scene, output, size, at, levels)
+    figures = render_scene(scene, output, size, at, levels, level_colours)
     if as_json:
         click.echo(json.dumps(figures))
 
 
 def render_scene(
-    scene: Scene, output: Path, size: tuple[int, int], at: float | None = None, levels: bool = True
+    scene: Scene,
+    output: Path,
+    size: tuple[int, int],
+    at: float | None = None,
+    levels: bool = True,
+    level_colours: bool = False,
 ) -> dict[str, Any]:
     """Simulates and draws a scene with progress on stderr, and says what it took."""
     from windswept.render.film import film
@@ -79,7 +88,7 @@ def render_scene(
         simulation = Simulation(scene, levels=levels, picture_height=size[1], say=say)
     ready = time.perf_counter()
     with progress_bar(f"drawing {output.name}") as progress:
-        film(simulation, output, size, at, progress)
+        film(simulation, output, size, at, progress, level_colours)
     drawn = time.perf_counter() - ready
     return {
         "output": str(output),

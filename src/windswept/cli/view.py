@@ -22,15 +22,18 @@ PICTURE_HEIGHT = 720
 @click.command("view")
 @click.argument("source", metavar="SCENE")
 @click.option("--seed", type=click.IntRange(0), help="Instead of the scene's.")
-def command(source: str, seed: int | None) -> None:
+@click.option(
+    "--level-colours", is_flag=True, help="Colour plants by simulation level: red every link, violet one."
+)
+def command(source: str, seed: int | None, level_colours: bool) -> None:
     """Open a live window on SCENE: drag to orbit, scroll to zoom, sliders for the wind, pause.
 
     Example: windswept view weeping_willow
     """
-    view_scene(load_scene(source, seed))
+    view_scene(load_scene(source, seed), level_colours)
 
 
-def view_scene(scene: Scene) -> None:
+def view_scene(scene: Scene, level_colours: bool = False) -> None:
     """Opens the window and runs until it is closed.
 
     Raises:
@@ -38,7 +41,7 @@ def view_scene(scene: Scene) -> None:
     """
     from windswept.geometry.curves import build_geometry
     from windswept.gpu.frame import Camera, Frame
-    from windswept.render.staging import camera_of, frame_now, ground_grid
+    from windswept.render.staging import LEVEL_LOOKS, camera_of, frame_now, ground_grid
     from windswept.render.window import Controls, require_display, show_window
     from windswept.scene.camera import view_at
 
@@ -54,7 +57,7 @@ def view_scene(scene: Scene) -> None:
         simulation.advance(seconds)
         links = f"{simulation.stepped_count:,} of {simulation.link_count:,} links stepped"
         controls.counters = f"{links}, {simulation.time:.1f} s"
-        return replace(frame_now(simulation), camera=camera)
+        return replace(frame_now(simulation, level_colours=level_colours), camera=camera)
 
     mean = scene.wind.mean
     show_window(
@@ -65,6 +68,7 @@ def view_scene(scene: Scene) -> None:
         ground_grid(scene.terrain),
         Controls(wind_speed=mean.speed, wind_heading=math.remainder(mean.azimuth, math.tau)),
         "windswept",
+        LEVEL_LOOKS,
     )
 
 

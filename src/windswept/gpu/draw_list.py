@@ -93,7 +93,7 @@ def draw_list(
         pixels = _pixels(view, centre, kind.radius)
         pixels = np.where(seen, pixels, np.minimum(pixels, 1.0 / view.shadow_texel))
         detail = choose_detail(kind.order, pixels, rules)
-        rows.append(_placement_rows(kind, posed, detail, look, link_first, shift_first))
+        rows.append(_placement_rows(kind, posed, detail, look, len(kinds), link_first, shift_first))
         centres.append(centre)
         radii.append(np.full(len(centre), kind.radius))
         meshes.append(detail.leaf_mesh)
@@ -119,7 +119,13 @@ def _pixels(view: View, centre: Doubles, radius: float) -> Doubles:
 
 
 def _placement_rows(
-    kind: Kind, posed: PosedPlants, detail: Detail, look: int, link_first: int, shift_first: int
+    kind: Kind,
+    posed: PosedPlants,
+    detail: Detail,
+    look: int,
+    kinds_count: int,
+    link_first: int,
+    shift_first: int,
 ) -> NDArray[np.void]:
     """``PLACEMENT`` rows without the places of their posed items."""
     count = len(posed.position)
@@ -133,6 +139,8 @@ def _placement_rows(
     rows["rows"][:, 1] = shift_first + number * kind.stem_count
     rows["rows"][:, 2:] = kind.stem_first, kind.stem_count
     rows["first"] = kind.piece_first, kind.leaf_first, 0, look
+    if posed.extra_look is not None:
+        rows["first"][:, 3] = kinds_count + posed.extra_look
     rows["piece_limit"] = detail.piece_limit
     rows["leaves"] = np.stack(
         [detail.leaf_count, detail.leaf_cut, detail.leaf_fade, detail.leaf_scale], axis=1

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from windswept.plants.plant import Floats
+from windswept.plants.plant import Floats, Ints
 
 Vector = tuple[float, float, float]
 
@@ -35,6 +35,8 @@ class PosedPlants:
     """(P,) turn about +Z, rad."""
     flutter: Floats
     """(P,) how far a readily fluttering leaf trembles, rad; 0 in calm air."""
+    extra_look: Ints | None = None
+    """(P,) which of the renderer's extra looks each wears; None for the kind's own look."""
 
 
 @dataclass(frozen=True, slots=True)

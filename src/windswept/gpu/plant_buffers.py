@@ -48,7 +48,7 @@ def plant_arrays(geometries: list[Geometry], link_bases: list[Floats], looks: li
     Args:
         geometries: one for each kind.
         link_bases: (L, 3) joints at rest of each kind, m.
-        looks: one for each kind, at most ``LOOK_LIMIT``.
+        looks: one for each kind and then others, at most ``LOOK_LIMIT``.
     """
     kinds: list[Kind] = []
     stems = [np.zeros(0, layouts.STEM)]

@@ -24,7 +24,7 @@ from windswept.gpu.plant_drawing import PlantDrawing
 from windswept.gpu.posing import Posing
 from windswept.gpu.wiring import ALL_STAGES, DEPTH_FORMAT, bind, buffers_layout
 from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
-from windswept.plants.plant import Plant
+from windswept.plants.plant import Look, Plant
 
 SAMPLES = 4
 """Of a pixel (MSAA)."""
@@ -43,6 +43,7 @@ class Renderer:
         size: width and height of the picture, pixels.
         rules: what may be spent; by default what suits the device.
         colour_format: of the views that ``draw_into`` gets.
+        extra_looks: that placements may wear instead of their plant's own.
 
     Raises:
         GraphicsError: there is no graphics adapter.
@@ -56,12 +57,15 @@ class Renderer:
         size: tuple[int, int] = (1280, 720),
         rules: DetailRules | None = None,
         colour_format: str = PICTURE_FORMAT,
+        extra_looks: tuple[Look, ...] = (),
     ) -> None:
         self._device = shared_device()
         self._rules = rules or (SOFTWARE_RULES if is_software(self._device) else DetailRules())
         self._ground = ground
         arrays = plant_arrays(
-            geometries, [plant.link_base for plant in plants], [plant.look for plant in plants]
+            geometries,
+            [plant.link_base for plant in plants],
+            [*(plant.look for plant in plants), *extra_looks],
         )
         self.kinds = arrays.kinds
         self._frame_layout = buffers_layout(self._device, ALL_STAGES, UNIFORM_BINDING)

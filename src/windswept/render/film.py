@@ -34,6 +34,7 @@ def film(
     size: tuple[int, int] = (1280, 720),
     at: float | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
+    level_colours: bool = False,
 ) -> None:
     """Runs a simulation and draws it.
 
@@ -43,6 +44,7 @@ def film(
         size: width and height, pixels.
         at: time of the picture, s; None for the middle of the scene.
         progress: told frames done and frames in all.
+        level_colours: colour every plant by its simulation level.
 
     Raises:
         InputError: unknown ending, or a folder that does not exist.
@@ -54,22 +56,22 @@ def film(
         # A single picture may take its time: full detail on any device.
         renderer = stage(simulation, size, DetailRules())
         simulation.advance(0.5 * scene.duration if at is None else at)
-        render_picture(renderer, frame_now(simulation), path)
+        render_picture(renderer, frame_now(simulation, level_colours=level_colours), path)
         progress(1, 1)
         return
     renderer = stage(simulation, size)
     total = scene.frame_count
     render_video(
         renderer,
-        _frames(simulation, total),
+        _frames(simulation, total, level_colours),
         path,
         scene.frames_per_second,
         lambda done: progress(done, total),
     )
 
 
-def _frames(simulation: Simulation, count: int) -> Iterator[Frame]:
+def _frames(simulation: Simulation, count: int, level_colours: bool) -> Iterator[Frame]:
     for index in range(count):
         if index:
             simulation.advance(1.0 / simulation.scene.frames_per_second)
-        yield frame_now(simulation)
+        yield frame_now(simulation, level_colours=level_colours)

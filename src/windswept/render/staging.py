@@ -8,8 +8,9 @@ from windswept.geometry.curves import build_geometry
 from windswept.geometry.detail import DetailRules
 from windswept.gpu.frame import Camera, Frame, Ground, PosedPlants
 from windswept.gpu.renderer import Renderer
-from windswept.plants.plant import Floats
+from windswept.plants.plant import Floats, Ints, Look
 from windswept.scene.camera import View, view_at
+from windswept.scene.moving_kind import MovingKind
 from windswept.scene.simulation import Simulation
 from windswept.scene.terrain import Terrain
 
@@ -19,8 +20,26 @@ FLUTTER_SPEED = 5.0
 """Wind speed at which it trembles with 63 % of that, m/s."""
 
 
+LEVEL_COLOURS = (
+    (0.55, 0.03, 0.03),
+    (0.60, 0.16, 0.02),
+    (0.55, 0.38, 0.03),
+    (0.25, 0.45, 0.05),
+    (0.04, 0.42, 0.14),
+    (0.03, 0.32, 0.38),
+    (0.03, 0.14, 0.50),
+    (0.14, 0.05, 0.45),
+)
+"""From a plant of which every link is stepped (red) to one that sways as a whole (violet), linear RGB."""
+LEVEL_LOOKS = tuple(
+    Look(bark_colour=c, leaf_colour=c, leaf_back_colour=c, bark_relief=0.2) for c in LEVEL_COLOURS
+)
+
+
 def stage(
-    simulation: Simulation, size: tuple[int, int] = (1280, 720), rules: DetailRules | None = None
+    simulation: Simulation,
+    size: tuple[int, int] = (1280, 720),
+    rules: DetailRules | None = None,
 ) -> Renderer:
     """A renderer that holds everything of a simulation's scene.
 
@@ -34,20 +53,28 @@ def stage(
     """
     plants = [kind.plant for kind in simulation.kinds]
     geometries = [build_geometry(plant) for plant in plants]
-    return Renderer(plants, geometries, ground_grid(simulation.scene.terrain), size, rules)
+    ground = ground_grid(simulation.scene.terrain)
+    return Renderer(plants, geometries, ground, size, rules, extra_looks=LEVEL_LOOKS)
 
 
-def frame_now(simulation: Simulation, view: View | None = None) -> Frame:
+def frame_now(simulation: Simulation, view: View | None = None, level_colours: bool = False) -> Frame:
     """What is to be seen at this moment.
 
     Args:
         simulation: at the moment to draw.
         view: from where; None for the scene's own camera.
+        level_colours: colour every plant by how few oscillators move it.
     """
     scene = simulation.scene
     seen = view_at(scene.camera, simulation.time) if view is None else view
     posed = tuple(
-        PosedPlants(pose.link, kind.placements.position, kind.placements.yaw, flutter(speeds))
+        PosedPlants(
+            pose.link,
+            kind.placements.position,
+            kind.placements.yaw,
+            flutter(speeds),
+            level_colour(kind) if level_colours else None,
+        )
         for kind, pose, speeds in zip(simulation.kinds, simulation.pose, simulation.wind_speeds, strict=True)
     )
     x, y = simulation.wind.mean.vector
@@ -58,6 +85,13 @@ def frame_now(simulation: Simulation, view: View | None = None) -> Frame:
         time=simulation.time,
         wind=(float(x), float(y)),
     )
+
+
+def level_colour(kind: MovingKind) -> Ints:
+    """(P,) index into LEVEL_COLOURS: the logarithm of links over oscillators, from none merged to all merged."""
+    stepped = np.array([s.level.link_count + s.level.group_count for s in kind.sets], np.float64)
+    merged = np.log(kind.model.link_count / stepped) / np.log(max(kind.model.link_count, 2))
+    return np.rint(merged[kind.at] * (len(LEVEL_COLOURS) - 1)).astype(np.int32)
 
 
 def camera_of(view: View) -> Camera:

@@ -14,7 +14,7 @@ from windswept.gpu.device import shared_device
 from windswept.gpu.draw_list import DrawList
 from windswept.gpu.frame import FLAT_GROUND, Camera, Frame, Ground
 from windswept.gpu.renderer import Renderer
-from windswept.plants.plant import Plant
+from windswept.plants.plant import Look, Plant
 from windswept.render.orbit import Orbit, orbit_from
 
 TURN_PER_PIXEL = 0.006
@@ -50,6 +50,7 @@ def show_window(
     ground: Ground = FLAT_GROUND,
     controls: Controls | None = None,
     title: str = "windswept",
+    extra_looks: tuple[Look, ...] = (),
 ) -> None:
     """Open a window and run until it is closed.
 
@@ -61,6 +62,7 @@ def show_window(
         ground: terrain heights.
         controls: where the sliders begin.
         title: of the window.
+        extra_looks: that placements may wear instead of their plant's own.
 
     Raises:
         GraphicsError: no display, no adapter, or the ``view`` extra is not installed.
@@ -76,7 +78,9 @@ def show_window(
     context = canvas.get_wgpu_context()
     colour_format = context.get_preferred_format(device.adapter)
     context.configure(device=device, format=colour_format)
-    renderer = Renderer(plants, geometries, ground, canvas.get_physical_size(), None, colour_format)
+    renderer = Renderer(
+        plants, geometries, ground, canvas.get_physical_size(), None, colour_format, extra_looks
+    )
     panel = ImguiRenderer(device, canvas)
     view = _LiveView(renderer, advance, orbit_from(camera), controls or Controls())
     panel.set_gui(view.panel)
