@@ -56,6 +56,65 @@ def test_several_trunks_are_splits_at_the_foot(imported) -> None:
     assert "0Branches 49 trunks -> 32 base_splits" in report.clamped
 
 
+def test_trunks_keep_their_own_branches(tmp_path) -> None:
+    text = PRESETS["birch.xml"].replace("</species>", "<param name='0Branches' value='3'/></species>")
+    (tmp_path / "trunks.xml").write_text(text)
+    species, _ = import_species(tmp_path / "trunks.xml")
+    assert species.growth.base_splits == 3
+    assert species.growth.level[1].branches == 3 * 12
+
+
+ASPEN = {
+    "Shape": 7,
+    "Levels": 3,
+    "Scale": 13,
+    "ScaleV": 3,
+    "BaseSize": 0.4,
+    "Ratio": 0.015,
+    "RatioPower": 1.2,
+    "Flare": 0.6,
+    "Lobes": 5,
+    "LobeDepth": 0.07,
+    "Leaves": 25,
+    "LeafScale": 0.17,
+    "LeafScaleX": 1,
+    "AttractionUp": 0.5,
+    "0Length": 1,
+    "1Length": 0.3,
+    "2Length": 0.6,
+    "1DownAngle": 60,
+    "1DownAngleV": -50,
+    "2DownAngle": 45,
+    "2DownAngleV": 10,
+    "3DownAngle": 45,
+    "3DownAngleV": 10,
+    "1Rotate": 140,
+    "2Rotate": 140,
+    "3Rotate": 77,
+    "1Branches": 50,
+    "2Branches": 30,
+    "0CurveRes": 3,
+    "1CurveRes": 5,
+    "2CurveRes": 3,
+    "0CurveV": 20,
+    "1Curve": -40,
+    "1CurveV": 50,
+    "2Curve": -40,
+    "2CurveV": 75,
+}
+"""Weber and Penn's published table of the quaking aspen (PHYSICS B8)."""
+
+
+def test_the_published_aspen_is_the_built_in_one(tmp_path) -> None:
+    params = "".join(f"<param name='{name}' value='{value}'/>" for name, value in ASPEN.items())
+    (tmp_path / "aspen.xml").write_text(f"<arbaro><species name='aspen'>{params}</species></arbaro>")
+    found = import_species(tmp_path / "aspen.xml")[0].growth.model_dump()
+    wanted = load_species("quaking_aspen").growth.model_copy(update={"leaf_bend": 0.0}).model_dump()
+    levels = zip(found.pop("level")[:3], wanted.pop("level")[:3], strict=True)
+    assert found == wanted
+    assert all(one == other for one, other in levels)
+
+
 def test_arbaro_list(imported) -> None:
     species, _ = imported("plain.txt")
     assert species.name == "plain_tree"

@@ -47,6 +47,7 @@ class SpeciesDraft:
         self.tree: dict[str, Any] = {}
         self.levels: list[dict[str, Any]] = [{} for _ in range(LEVELS)]
         self.look: dict[str, Any] = {}
+        self._trunks = 1
 
     def take(self, place: str, value: object, key: str, level: int | None = None) -> None:
         """Put a number of the file into the form; out of range it is clamped, and the report says so.
@@ -111,8 +112,8 @@ class SpeciesDraft:
         if trunks > 1:
             splits = self.tree.get("base_splits", 0) + trunks - 1
             self.tree["base_splits"] = int(_in_range(Growth, "base_splits", splits))
-            kept = self.tree["base_splits"]
-            self.report.clamped.append(f"{place} {trunks:g} trunks -> {kept} base_splits")
+            self._trunks = min(trunks, self.tree["base_splits"] + 1)
+            self.report.clamped.append(f"{place} {trunks:g} trunks -> {self.tree['base_splits']} base_splits")
             trunk = self.levels[0]
             trunk.setdefault("split_angle", trunk.get("down_angle", 0.0))
             trunk.setdefault("split_angle_v", abs(trunk.get("down_angle_v", 0.0)))
@@ -132,6 +133,7 @@ class SpeciesDraft:
             raise InputError(self.source, "", None, f"{self.report.format} with parameters of a tree")
         tree = {**TREE_DEFAULTS, **self.tree}
         self._cut_empty_levels(tree)
+        self._share_among_trunks(tree)
         tree["level"] = [LEVEL_DEFAULTS[i] | _positive_length(i, own) for i, own in enumerate(self.levels)]
         self._note_defaults(tree)
         title = " ".join((name or self.stem).split())[:100] or "imported plant"
@@ -156,6 +158,14 @@ class SpeciesDraft:
                 self.report.clamped.append(f"levels {tree['levels']} -> {order} (length 0 on level {order})")
                 tree["levels"] = order
                 return
+
+    def _share_among_trunks(self, tree: dict[str, Any]) -> None:
+        """Trunks have their own branches or leaves in the file, but share them here."""
+        if self._trunks > 1 and tree["levels"] > 1:
+            own = self.levels[1].get("branches", LEVEL_DEFAULTS[1]["branches"])
+            self.levels[1]["branches"] = int(_in_range(Level, "branches", own * self._trunks))
+        elif self._trunks > 1 and tree.get("leaves", 0) > 0:
+            tree["leaves"] = int(_in_range(Growth, "leaves", tree["leaves"] * self._trunks))
 
     def _note_defaults(self, tree: dict[str, Any]) -> None:
         """Name what the file did not give."""
