@@ -12,6 +12,8 @@ import numpy as np
 from windswept.errors import InputError
 from windswept.geometry.detail import DetailRules
 from windswept.plants.sources import grow_source
+from windswept.plants.species import load_species, species_names
+from windswept.plants.weber_penn.tree import plant_tree
 from windswept.scene.camera import View
 from windswept.scene.load_scene import load_scene
 from windswept.scene.simulation import Simulation
@@ -26,6 +28,8 @@ PERSON = 1.75
 FOV = math.radians(24.0)
 MARGIN = 1.16
 """Height of a picture over what it shows."""
+SEEDS = 12
+"""Seeds among which the typical tree of a species is sought."""
 FIGURE = (
     *(
         (-0.055, 0.0),
@@ -77,8 +81,17 @@ def draw_sheet(
     for place, source in enumerate(sources):
         say(f"drawing {source}")
         corner = (place % columns * width, place // columns * height)
-        sheet.paste(draw_with_person(source), corner)
+        sheet.paste(draw_with_person(source, typical_seed(source)), corner)
     write_png(np.asarray(sheet), path)
+
+
+def typical_seed(source: str) -> int:
+    """The seed, of the first few, whose tree is nearest to its species' mean size; 0 for other sources."""
+    if source not in species_names():
+        return 0
+    species = load_species(source)
+    scales = [plant_tree(species, seed, 1, 1).scale for seed in range(SEEDS)]
+    return int(np.argmin(np.abs(np.array(scales) - species.growth.scale)))
 
 
 def draw_with_person(source: str, seed: int = 0) -> Any:
