@@ -48,6 +48,8 @@ LEVEL = {
     "curveBack": "curve_back",
     "curveV": "curve_v",
 }
+NOT_OF_TRUNKS = ("downAngle", "downAngleV")
+"""Sapling's trunks stand upright whatever these say of level 0; its own presets say 90 degrees."""
 LEAF = {
     "leafDownAngle": "down_angle",
     "leafDownAngleV": "down_angle_v",
@@ -97,6 +99,8 @@ def _take(draft: SpeciesDraft, name: str, value: object) -> None:
         draft.take(name, value, TREE[name])
     elif name in LEVEL:
         draft.take_levels(name, value, LEVEL[name])
+        if name in NOT_OF_TRUNKS:
+            draft.levels[0].pop(LEVEL[name])
     elif name in LEAF:
         level = min(int(draft.tree.get("levels", 3)), 3)
         draft.take(name, value, LEAF[name], level)
