@@ -13,6 +13,7 @@ from windswept.levels import (
     carry_over,
     choose,
     cut_level,
+    fill_registers,
     joint_motion_of,
     measure,
     simplify,
@@ -144,6 +145,20 @@ def test_choice_follows_distance_and_holds_in_the_dead_band(aspen: Ladder) -> No
         assert choose(aspen, eye, border * factor, level)[0] == level[0]
     assert choose(aspen, eye, border * 0.85, level)[0] < level[0]
     assert choose(aspen, eye, np.array([1e6]), level)[0] == len(aspen.levels) - 1
+
+
+def test_idle_lanes_are_filled_from_coarser_levels() -> None:
+    rng = np.random.default_rng(0)
+    for count in (1, 7, 8, 9, 60):
+        wanted = rng.integers(0, 6, count).astype(np.int32)
+        filled = fill_registers(wanted)
+        assert (filled <= wanted).all()
+
+        def registers(levels: np.ndarray) -> int:
+            return int((-(-np.bincount(levels) // 8)).sum())
+
+        assert registers(filled) <= registers(wanted)
+        assert (np.sort(np.bincount(filled) % 8)[:-1] == 0).all()
 
 
 @pytest.mark.slow

@@ -79,17 +79,21 @@ def render_scene(
     at: float | None = None,
     levels: bool = True,
     level_colours: bool = False,
+    still: tuple[Path, float] | None = None,
 ) -> dict[str, Any]:
     """Simulates and draws a scene with progress on stderr, and says what it took."""
-    from windswept.render.film import film
+    from windswept.render.film import PICTURE_ENDINGS, Shot, film_picture, film_video
 
     started = time.perf_counter()
     with status_line("growing plants") as say:
         simulation = Simulation(scene, levels=levels, picture_height=size[1], say=say)
     ready = time.perf_counter()
     with progress_bar(f"drawing {output.name}") as progress:
-        film(simulation, output, size, at, progress, level_colours)
-    drawn = time.perf_counter() - ready
+        shot = Shot(size, level_colours, progress)
+        if output.suffix.lower() in PICTURE_ENDINGS:
+            simulating = film_picture(simulation, output, 0.5 * scene.duration if at is None else at, shot)
+        else:
+            simulating = film_video(simulation, output, shot, still)
     return {
         "output": str(output),
         "plants": scene.placement_count,
@@ -98,6 +102,7 @@ def render_scene(
         "stepped": simulation.stepped_count,
         "placements_by_level": simulation.placements_by_level,
         "simulated_s": round(simulation.time, 3),
+        "steps_per_second": round(simulation.step_count / max(simulating, 1e-9), 1),
         "grow_seconds": round(ready - started, 2),
-        "draw_seconds": round(drawn, 2),
+        "draw_seconds": round(time.perf_counter() - ready, 2),
     }

@@ -9,7 +9,7 @@
 """
 
 from windswept.levels.carry_over import carry_over, joint_motion_of
-from windswept.levels.choose import Eye, choose
+from windswept.levels.choose import Eye, choose, fill_registers
 from windswept.levels.cut_level import cut_level
 from windswept.levels.hierarchy import Hierarchy, simplify
 from windswept.levels.ladder import Ladder, build_ladder
@@ -23,6 +23,7 @@ __all__ = [
     "carry_over",
     "choose",
     "cut_level",
+    "fill_registers",
     "joint_motion_of",
     "measure",
     "simplify",

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windswept.levels.ladder import Ladder
+from windswept.motion.lanes import WIDTH
 from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats, Ints
 
@@ -51,6 +52,28 @@ def choose(ladder: Ladder, eye: Eye, distance: Doubles, current: Ints) -> Ints:
     allowed = _coarsest(ladder.error, eye.metres(distance))
     kept = _coarsest(ladder.error, eye.metres(distance * (1.0 + eye.dead_band)))
     return np.where(allowed >= current, allowed, np.minimum(current, kept)).astype(np.int32)
+
+
+def fill_registers(wanted: Ints) -> Ints:
+    """Levels with the idle lanes of finer levels' registers filled: who fits there is stepped for nothing.
+
+    Args:
+        wanted: (P,) coarsest level that each placement may have.
+
+    Returns:
+        (P,) levels, none coarser than wanted.
+    """
+    order = np.argsort(wanted, kind="stable")
+    levels = wanted[order].copy()
+    start = 0
+    while start < len(levels):
+        members = int(np.searchsorted(levels, levels[start], side="right")) - start
+        end = min(start + -(-members // WIDTH) * WIDTH, len(levels))
+        levels[start:end] = levels[start]
+        start = end
+    filled = np.empty_like(wanted)
+    filled[order] = levels
+    return filled
 
 
 def _coarsest(error: Doubles, metres: Doubles) -> NDArray[np.int64]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 from windswept.errors import InputError
@@ -14,6 +16,18 @@ from windswept.render.video import VIDEO_ENDINGS, render_video
 from windswept.scene.simulation import Simulation
 
 PICTURE_ENDINGS = (".png",)
+
+
+@dataclass(frozen=True, slots=True)
+class Shot:
+    """How a scene is drawn."""
+
+    size: tuple[int, int] = (1280, 720)
+    """Width and height, pixels."""
+    level_colours: bool = False
+    """Colour every plant by its simulation level."""
+    progress: Callable[[int, int], None] = lambda done, total: None
+    """Told frames done and frames in all."""
 
 
 def check_ending(path: Path) -> None:
@@ -28,50 +42,80 @@ def check_ending(path: Path) -> None:
         raise InputError(str(path), "", str(path.parent), "a folder that exists")
 
 
-def film(
-    simulation: Simulation,
-    path: Path,
-    size: tuple[int, int] = (1280, 720),
-    at: float | None = None,
-    progress: Callable[[int, int], None] = lambda done, total: None,
-    level_colours: bool = False,
-) -> None:
-    """Runs a simulation and draws it.
+def film_picture(simulation: Simulation, path: Path, at: float, shot: Shot) -> float:
+    """Runs a simulation to a moment and draws it in full detail.
 
     Args:
         simulation: at its start.
-        path: .png for one picture, .mp4 or .webp for all frames of the scene.
-        size: width and height, pixels.
-        at: time of the picture, s; None for the middle of the scene.
-        progress: told frames done and frames in all.
-        level_colours: colour every plant by its simulation level.
+        path: .png
+        at: time of the picture, s.
+        shot: how it is drawn.
+
+    Returns:
+        Wall time that the simulation took, s.
 
     Raises:
         InputError: unknown ending, or a folder that does not exist.
         GraphicsError: there is no graphics adapter.
     """
     check_ending(path)
-    scene = simulation.scene
-    if path.suffix.lower() in PICTURE_ENDINGS:
-        # A single picture may take its time: full detail on any device.
-        renderer = stage(simulation, size, DetailRules())
-        simulation.advance(0.5 * scene.duration if at is None else at)
-        render_picture(renderer, frame_now(simulation, level_colours=level_colours), path)
-        progress(1, 1)
-        return
-    renderer = stage(simulation, size)
+    renderer = stage(simulation, shot.size, DetailRules())
+    started = time.perf_counter()
+    simulation.advance(at)
+    seconds = time.perf_counter() - started
+    render_picture(renderer, frame_now(simulation, level_colours=shot.level_colours), path)
+    shot.progress(1, 1)
+    return seconds
+
+
+def film_video(
+    simulation: Simulation, path: Path, shot: Shot, still: tuple[Path, float] | None = None
+) -> float:
+    """Runs a simulation through its scene and draws all frames.
+
+    Args:
+        simulation: at its start.
+        path: .mp4 or .webp
+        shot: how it is drawn.
+        still: a .png and a time, s: that moment is drawn in full detail as well, on the way.
+
+    Returns:
+        Wall time that the simulation took, s.
+
+    Raises:
+        InputError: unknown ending, or a folder that does not exist.
+        GraphicsError: there is no graphics adapter.
+    """
+    check_ending(path)
+    scene, clock = simulation.scene, _Clock()
     total = scene.frame_count
+    frames = _frames(simulation, total, shot, clock, still)
     render_video(
-        renderer,
-        _frames(simulation, total, level_colours),
+        stage(simulation, shot.size),
+        frames,
         path,
         scene.frames_per_second,
-        lambda done: progress(done, total),
+        lambda done: shot.progress(done, total),
     )
+    return clock.seconds
 
 
-def _frames(simulation: Simulation, count: int, level_colours: bool) -> Iterator[Frame]:
+class _Clock:
+    """Wall time spent on one thing among others."""
+
+    seconds = 0.0
+
+
+def _frames(
+    simulation: Simulation, count: int, shot: Shot, clock: _Clock, still: tuple[Path, float] | None
+) -> Iterator[Frame]:
+    step = 1.0 / simulation.scene.frames_per_second
     for index in range(count):
         if index:
-            simulation.advance(1.0 / simulation.scene.frames_per_second)
-        yield frame_now(simulation, level_colours=level_colours)
+            started = time.perf_counter()
+            simulation.advance(step)
+            clock.seconds += time.perf_counter() - started
+        frame = frame_now(simulation, level_colours=shot.level_colours)
+        if still and abs(index * step - still[1]) <= 0.5 * step:
+            render_picture(stage(simulation, shot.size, DetailRules()), frame, still[0])
+        yield frame

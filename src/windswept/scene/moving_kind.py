@@ -6,7 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from windswept.levels import Eye, Ladder, build_ladder, carry_over, choose, joint_motion_of, simplify
+from windswept.levels import (
+    Eye,
+    Ladder,
+    build_ladder,
+    carry_over,
+    choose,
+    fill_registers,
+    joint_motion_of,
+    simplify,
+)
 from windswept.motion import Model, build_model, finest_level, pose_links, rest_state
 from windswept.motion.lanes import WIDTH
 from windswept.plants.plant import Floats, Plant
@@ -64,6 +73,8 @@ class MovingKind:
         ]
         self.at = np.zeros(placements.count, np.int32)
         """(P,) level of every placement, or the one it is blending to."""
+        self.wanted = self.at.copy()
+        """(P,) coarsest level that the camera allows each."""
         self.blends: dict[int, Blend] = {}
         self._radius = float(np.linalg.norm(plant.link_tip, axis=1).max())
 
@@ -87,10 +98,11 @@ class MovingKind:
                 self.sets[blend.source].remove(placement)
                 del self.blends[placement]
         away = np.linalg.norm(self.placements.position - eye.position, axis=1) - self._radius
-        wanted = choose(self.ladder, eye, np.maximum(away, 0.1), self.at)
-        for changing in np.flatnonzero(wanted != self.at).tolist():
+        self.wanted = choose(self.ladder, eye, np.maximum(away, 0.1), self.wanted)
+        given = fill_registers(self.wanted)
+        for changing in np.flatnonzero(given != self.at).tolist():
             if changing not in self.blends:
-                self._go(changing, int(wanted[changing]), time, at_once)
+                self._go(changing, int(given[changing]), time, at_once)
 
     def _go(self, placement: int, target: int, time: float, at_once: bool) -> None:
         """Takes a placement into another level's set with the motion it has."""
