@@ -71,9 +71,13 @@ def test_a_scan_in_leaf_and_bare(capsys, tmp_path) -> None:
         (["hazel", "-o", "none/plant.npz"], "none/plant.npz: expected a place that can be written to"),
         (["hazle"], "hazle: expected a built-in species or grammar, or a file: did you mean hazel?"),
         (["none.xml"], "none.xml: expected a file that exists"),
-        (["hazel", "--seed", "-1"], "seed = -1: expected a whole number from 0 up"),
-        (["pole.csv", "--leaf-area", "-2"], "leaf area = -2.0: expected a number from 0"),
-        (["pole.csv", "--leaf-area", "nan"], "leaf area = nan: expected a number from 0"),
+        (["hazel", "--seed", "2147483648"], "Invalid value for '--seed': 2147483648 is not in the range"),
+        (["hazel", "--seed", "-1"], "Invalid value for '--seed': -1 is not in the range"),
+        (
+            ["pole.csv", "--leaf-area", "-2"],
+            "Invalid value for '--leaf-area': -2.0 is not in the range x>=0.0",
+        ),
+        (["pole.csv", "--leaf-area", "nan"], "Invalid value for '--leaf-area': nan is not a finite number"),
         (["pole.csv", "-o", "pole.toml"], "pole.csv: expected a source that is a species"),
     ],
 )

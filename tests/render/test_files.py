@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import av
 import numpy as np
 import pytest
@@ -7,6 +9,7 @@ from PIL import Image
 
 from windswept.errors import GraphicsError, InputError
 from windswept.gpu.frame import Camera
+from windswept.render.film import check_film
 from windswept.render.offscreen import write_png
 from windswept.render.orbit import orbit_from
 from windswept.render.video import write_video
@@ -61,6 +64,27 @@ def test_bad_paths_are_named(tmp_path):
         write_video(iter(()), tmp_path / "a.mp4")
     with pytest.raises(InputError, match="folder"):
         write_png(next(pictures(1)), tmp_path / "none" / "a.png")
+
+
+def test_places_are_refused_before_any_work(tmp_path):
+    (tmp_path / "v.mp4").mkdir()
+    for path, said in (
+        (tmp_path / "a.gif", "ends in .png, .mp4 or .webp"),
+        (tmp_path / "v.mp4", "a file, not a folder"),
+        (tmp_path / "none" / "a.png", "a folder that exists"),
+        (Path("/proc/a.png"), "a place that can be written to"),
+    ):
+        with pytest.raises(InputError, match=said):
+            check_film(path)
+    check_film(tmp_path / "a.png")
+    assert [file.name for file in tmp_path.iterdir()] == ["v.mp4"]
+
+
+def test_what_goes_wrong_on_disk_is_one_line(tmp_path):
+    (tmp_path / "a.png").mkdir()
+    with pytest.raises(InputError, match="can be written to"):
+        write_png(next(pictures(1)), tmp_path / "a.png")
+    assert [file.name for file in tmp_path.iterdir()] == ["a.png"]
 
 
 def test_odd_sizes_are_cut_to_even_ones(tmp_path):

@@ -11,6 +11,7 @@ from typing import Any
 import click
 import numpy as np
 
+from windswept.cli.numbers import SEED, FiniteRange
 from windswept.errors import InputError
 from windswept.motion.modes import plant_frequencies
 from windswept.motion.rods import build_rods
@@ -28,10 +29,12 @@ ENDINGS = (".npz", ".toml", ".obj")
 
 @click.command("grow")
 @click.argument("source")
-@click.option("--seed", default=0, show_default=True, help="Which individual of the species.")
+@click.option("--seed", type=SEED, default=0, show_default=True, help="Which individual of the species.")
 @click.option("-o", "--output", help="Save as .npz (complete), .toml (the species) or .obj (mesh at rest).")
 @click.option(
-    "--leaf-area", type=float, help="Of a scan: m^2 of leaves; 0 is winter. [default: by the trunk]"
+    "--leaf-area",
+    type=FiniteRange(0.0),
+    help="Of a scan: m^2 of leaves; 0 is winter. [default: by the trunk]",
 )
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of lines.")
 def command(source: str, seed: int, output: str | None, leaf_area: float | None, as_json: bool) -> None:

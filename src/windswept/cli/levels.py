@@ -9,6 +9,7 @@ from typing import Any
 import click
 import numpy as np
 
+from windswept.cli.numbers import SEED, FiniteRange
 from windswept.cli.progress import status_line
 from windswept.levels import Eye, Ladder, build_ladder, measure, simplify, with_measured_errors
 from windswept.levels.ladder import STATED_WIND
@@ -20,11 +21,9 @@ from windswept.studies.level_costs import levels_bytes, nanoseconds_per_step, pl
 
 @click.command("levels")
 @click.argument("source")
+@click.option("--seed", type=SEED, default=0, show_default=True, help="Which individual of the species.")
 @click.option(
-    "--seed", type=click.IntRange(0), default=0, show_default=True, help="Which individual of the species."
-)
-@click.option(
-    "--seconds", type=click.FloatRange(1.0, 600.0), default=20.0, show_default=True, help="Of measuring."
+    "--seconds", type=FiniteRange(1.0, 600.0), default=20.0, show_default=True, help="Of measuring."
 )
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table.")
 def command(source: str, seed: int, seconds: float, as_json: bool) -> None:

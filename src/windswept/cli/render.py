@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+from windswept.cli.numbers import SEED, FiniteRange
 from windswept.cli.progress import progress_bar, status_line
 from windswept.errors import InputError
 from windswept.scene.load_scene import load_scene
@@ -33,12 +34,12 @@ def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, in
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help=".png, .mp4 or .webp")
 @click.option("--size", default="1280x720", show_default=True, callback=parse_size, help="Width and height.")
 @click.option(
-    "--at", type=click.FloatRange(0.0, 3600.0), help="Time of a picture, s; the scene's middle if not given."
+    "--at", type=FiniteRange(0.0, 3600.0), help="Time of a picture, s; the scene's middle if not given."
 )
 @click.option(
-    "--duration", type=click.FloatRange(0.01, 3600.0), help="Length of a video instead of the scene's, s."
+    "--duration", type=FiniteRange(0.01, 3600.0), help="Length of a video instead of the scene's, s."
 )
-@click.option("--seed", type=click.IntRange(0), help="Instead of the scene's.")
+@click.option("--seed", type=SEED, help="Instead of the scene's.")
 @click.option(
     "--levels/--no-levels", default=True, help="Simulate far plants at coarser levels (default) or not."
 )
@@ -61,9 +62,9 @@ def command(
 
     Example: windswept render examples/forest_edge.toml -o edge.mp4
     """
-    from windswept.render.film import check_ending
+    from windswept.render.film import check_film
 
-    check_ending(output)
+    check_film(output)
     scene = load_scene(source, seed)
     if duration is not None:
         scene = replace(scene, duration=duration)

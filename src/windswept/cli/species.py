@@ -12,15 +12,17 @@ from windswept.plants.species import load_species, species_names
 
 @click.command("species")
 @click.option("--json", "as_json", is_flag=True, help="One JSON list instead of lines.")
-@click.option("--sheet", type=click.Path(dir_okay=False), help="Draw them side by side into a .png file.")
+@click.option("--sheet", help="Draw them side by side into a .png file.")
 def command(as_json: bool, sheet: str | None) -> None:
     """List the built-in species, a line each.
 
     Example: windswept species --sheet species.png
     """
     if sheet is not None:
+        from windswept.render.files import check_place
         from windswept.studies.species_sheet import draw_sheet
 
+        check_place(Path(sheet), (".png",))
         draw_sheet(species_names(), Path(sheet), say=lambda line: click.echo(line, err=True))
     known = [load_species(name) for name in species_names()]
     if as_json:

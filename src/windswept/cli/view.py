@@ -8,6 +8,7 @@ from dataclasses import replace
 import click
 import numpy as np
 
+from windswept.cli.numbers import SEED
 from windswept.cli.progress import status_line
 from windswept.levels import Eye
 from windswept.scene.load_scene import load_scene
@@ -21,7 +22,7 @@ PICTURE_HEIGHT = 720
 
 @click.command("view")
 @click.argument("source", metavar="SCENE")
-@click.option("--seed", type=click.IntRange(0), help="Instead of the scene's.")
+@click.option("--seed", type=SEED, help="Instead of the scene's.")
 @click.option(
     "--level-colours", is_flag=True, help="Colour plants by simulation level: red every link, violet one."
 )

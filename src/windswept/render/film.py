@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from windswept.errors import InputError
 from windswept.geometry.detail import DetailRules
 from windswept.gpu.frame import Frame
+from windswept.render.files import check_place
 from windswept.render.offscreen import render_picture
 from windswept.render.staging import frame_now, stage
 from windswept.render.video import VIDEO_ENDINGS, render_video
@@ -30,16 +30,13 @@ class Shot:
     """Told frames done and frames in all."""
 
 
-def check_ending(path: Path) -> None:
-    """Refuses a path that is neither a picture nor a video, before any work is done.
+def check_film(path: Path) -> None:
+    """Refuses a path that can become neither a picture nor a video, before any work is done.
 
     Raises:
-        InputError: unknown ending, or a folder that does not exist.
+        InputError: unknown ending, or a place that cannot be written to.
     """
-    if path.suffix.lower() not in PICTURE_ENDINGS + VIDEO_ENDINGS:
-        raise InputError(str(path), "", path.suffix, "a path that ends in .png, .mp4 or .webp")
-    if not path.absolute().parent.is_dir():
-        raise InputError(str(path), "", str(path.parent), "a folder that exists")
+    check_place(path, PICTURE_ENDINGS + VIDEO_ENDINGS)
 
 
 def film_picture(simulation: Simulation, path: Path, at: float, shot: Shot) -> float:
@@ -55,10 +52,10 @@ def film_picture(simulation: Simulation, path: Path, at: float, shot: Shot) -> f
         Wall time that the simulation took, s.
 
     Raises:
-        InputError: unknown ending, or a folder that does not exist.
+        InputError: unknown ending, or a place that cannot be written to.
         GraphicsError: there is no graphics adapter.
     """
-    check_ending(path)
+    check_film(path)
     renderer = stage(simulation, shot.size, DetailRules())
     started = time.perf_counter()
     simulation.advance(at)
@@ -83,10 +80,12 @@ def film_video(
         Wall time that the simulation took, s.
 
     Raises:
-        InputError: unknown ending, or a folder that does not exist.
+        InputError: unknown ending, or a place that cannot be written to.
         GraphicsError: there is no graphics adapter.
     """
-    check_ending(path)
+    check_film(path)
+    if still:
+        check_place(still[0], PICTURE_ENDINGS)
     scene, clock = simulation.scene, _Clock()
     total = scene.frame_count
     frames = _frames(simulation, total, shot, clock, still)

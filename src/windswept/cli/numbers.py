@@ -1,0 +1,24 @@
+"""Numbers on the command line."""
+
+from __future__ import annotations
+
+import math
+
+import click
+
+
+class FiniteRange(click.FloatRange):
+    """A finite number in a range; click's own range lets nan through, since nan is below and above nothing."""
+
+    def convert(
+        self, value: object, parameter: click.Parameter | None, context: click.Context | None
+    ) -> float:
+        """The number, or a line that says what is wrong with it."""
+        number: float = super().convert(value, parameter, context)
+        if not math.isfinite(number):
+            self.fail(f"{value} is not a finite number.", parameter, context)
+        return number
+
+
+SEED = click.IntRange(0, 2**31 - 1)
+"""What scene files take as well."""

@@ -1,0 +1,162 @@
+"""The command line, driven as a person would: output, exit codes, one line for every mistake."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from windswept.cli import COMMANDS, main
+
+SMALL = """
+seed = 1
+[[plant]]
+source = "hazel"
+position = [0.0, 0.0]
+[camera]
+eye = [0.0, -14.0, 2.0]
+target = [0.0, 0.0, 2.0]
+[time]
+duration_s = 0.2
+fps = 10.0
+"""
+
+
+def run(*arguments: object) -> int:
+    """Exit code of a command line."""
+    try:
+        main([str(a) for a in arguments])
+    except SystemExit as end:
+        return int(end.code or 0)
+    return 0
+
+
+@pytest.fixture
+def small_scene(tmp_path: Path) -> Path:
+    path = tmp_path / "small.toml"
+    path.write_text(SMALL)
+    return path
+
+
+def test_help_lists_every_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run() == 0
+    listed = capsys.readouterr().out
+    assert all(f"  {name} " in listed for name in COMMANDS)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_has_help_with_an_example(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(name, "--help") == 0
+    assert f"Example: windswept {name}" in " ".join(capsys.readouterr().out.split())
+
+
+def test_grow_reports_the_stated_fields(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("grow", "hazel", "--seed", 2, "--json") == 0
+    figures = json.loads(capsys.readouterr().out)
+    stated = ["species", "seed", "height_m", "crown_radius_m", "dbh_m", "stems", "links", "leaves"]
+    stated += ["leaf_area_m2", "wood_mass_kg", "frequencies_hz", "seconds"]
+    assert [key for key in stated if key not in figures] == []
+    assert figures["seed"] == 2
+    assert figures["links"] > sum(figures["stems"])
+    assert len(figures["frequencies_hz"]) == 5
+    assert figures["frequencies_hz"] == sorted(figures["frequencies_hz"])
+
+
+def test_species_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("species", "--json") == 0
+    names = [one["name"] for one in json.loads(capsys.readouterr().out)]
+    assert {"quaking_aspen", "black_tupelo", "weeping_willow", "california_black_oak"} <= set(names)
+
+
+def test_levels_reports_every_level(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("levels", "hazel", "--seconds", 1, "--json") == 0
+    report = json.loads(capsys.readouterr().out)
+    links = [row["links"] for row in report["levels"]]
+    assert links == sorted(links, reverse=True)
+    assert report["levels"][0]["measured_max_m"] == 0.0
+    assert {"level", "links", "measured_p95_m", "measured_max_m", "distance_m", "ns_per_step"} <= set(
+        report["levels"][0]
+    )
+    assert report["bytes_plant"] > 0
+
+
+def test_render_draws_a_picture_and_a_video(
+    small_scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    picture, video = tmp_path / "a.png", tmp_path / "a.mp4"
+    assert run("render", small_scene, "-o", picture, "--size", "96x64", "--json") == 0
+    assert json.loads(capsys.readouterr().out)["plants"] == 1
+    with Image.open(picture) as image:
+        assert image.size == (96, 64)
+    assert run("render", small_scene, "-o", video, "--size", "96x64") == 0
+    assert video.stat().st_size > 500
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.mp4", "a.png", "small.toml"]
+
+
+def test_doctor_names_the_adapter(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("doctor", "--json") == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["adapter"]
+    assert report["mend"] is None
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("grow", "no_such_species"),
+        ("grow", "missing.toml"),
+        ("grow", "hazel", "--seed", "-1"),
+        ("render", "hazel", "-o", "x.gif"),
+        ("render", "hazel", "-o", "no/such/folder/x.png"),
+        ("render", "hazel", "-o", "x.png", "--size", "0x0"),
+        ("render", "hazel", "-o", "x.png", "--size", "big"),
+        ("render", "no_such_scene", "-o", "x.png"),
+        ("render", "hazel", "-o", "."),
+        ("render", "hazel", "-o", "/proc/x.png"),
+        ("render", "hazel", "-o", "x.png", "--at", "nan"),
+        ("render", "hazel", "-o", "x.mp4", "--duration", "nan"),
+        ("render", "hazel", "-o", "x.mp4", "--seed", "2147483648"),
+        ("levels", "hazel", "--seconds", "nan"),
+        ("levels", "hazel", "--seed", "2147483648"),
+        ("species", "--sheet", "no/folder/x.png"),
+        ("species", "--sheet", "x.bmp"),
+        ("view", "no_such_scene"),
+        ("bench", "nothing"),
+        ("nonsense",),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_code_2(
+    arguments: tuple[str, ...],
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(*arguments) == 2
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert len(output.err.strip().splitlines()) == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_window_without_a_display_is_one_line(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    assert run("view", "hazel") == 2
+    assert "no display" in capsys.readouterr().err
+
+
+def test_importing_windswept_loads_nothing_heavy() -> None:
+    import subprocess
+    import sys
+
+    code = (
+        "import sys, windswept; heavy = {'wgpu', 'numba', 'scipy', 'av', 'PIL', 'rendercanvas', 'mujoco'}; "
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
