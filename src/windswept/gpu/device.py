@@ -55,6 +55,11 @@ def _best_adapter() -> Any:
     """The adapter wgpu prefers; enumerated first, since asking for one that is not there panics."""
     if "XDG_RUNTIME_DIR" not in os.environ:
         os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="windswept-runtime-")
+    missing = f"no graphics adapter found; a software one comes with: {DRIVER_LINE}"
     if not wgpu.gpu.enumerate_adapters_sync():
-        raise GraphicsError(f"no graphics adapter found; a software one comes with: {DRIVER_LINE}")
-    return wgpu.gpu.request_adapter_sync(power_preference="high-performance")
+        raise GraphicsError(missing)
+    try:
+        return wgpu.gpu.request_adapter_sync(power_preference="high-performance")
+    except RuntimeError as error:
+        # WGPU_BACKEND_TYPE may rule out every adapter that was listed.
+        raise GraphicsError(missing) from error
