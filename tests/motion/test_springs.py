@@ -11,10 +11,11 @@ from scipy.special import ellipeinc, ellipkinc
 
 from handmade import build_plant, random_tree, straight
 from windswept.motion import Model, State, Stepper, build_model, finest_level, pose_links, push, rest_state
-from windswept.motion.model import TIME_STEP
+from windswept.motion.model import PROPAGATION, TIME_STEP
 from windswept.motion.springs_plain import pose_plain, step_plain
 from windswept.plants.plant import Material
 from windswept.plants.pose import Pose
+from windswept.plants.weber_penn import grow
 from windswept.studies.mujoco_tree import mujoco_tree
 
 LIMP = Material(youngs_modulus=3e8, damping_ratio=0.05)
@@ -53,7 +54,7 @@ def test_kernel_equals_plain_formulas(seed: int) -> None:
     model = build_model(random_tree(seed, material=LIMP))
     model = replace(model, propagation=rng.uniform(0.9, 1.0, model.link_count))
     model = replace(model, constants=model.constants.copy())
-    model.constants[:, 29] = model.propagation
+    model.constants[:, PROPAGATION] = model.propagation
     placements, chosen = 9, 8
     stepper, state = stepped(model, placements)
     angles, velocities = np.zeros((model.link_count, 2)), np.zeros((model.link_count, 2))
@@ -230,3 +231,46 @@ def test_a_push_moves_only_the_way_to_the_root() -> None:
     moving = set(np.flatnonzero(np.abs(state.velocities(1)).max(axis=1) > 0).tolist())
     assert moving == way
     assert not state.velocities(0).any()
+
+
+@pytest.mark.parametrize(
+    ("species", "speed"), [("hazel", 15.0), ("quaking_aspen", 25.0), ("california_black_oak", 15.0)]
+)
+def test_a_steady_storm_ends_in_rest(species: str, speed: float) -> None:
+    # A force held over a step must neither feed nor drain the motion, whatever stiffness the air adds.
+    model = build_model(grow(species, 0))
+    stepper, state = stepped(model, 1)
+    wind = steady(model, 1, speed)
+    stepper.step(state, wind, wind, 120 * 20)
+    track = []
+    for _ in range(60):
+        stepper.step(state, wind, wind)
+        track.append(state.angles(0).copy())
+    assert np.abs(track[-1]).max() > 0.3
+    assert np.ptp(np.array(track), axis=0).max() < 2e-3
+
+
+def test_a_broken_number_is_not_mistaken_for_rest() -> None:
+    model = build_model(random_tree(0))
+    stepper, state = stepped(model, 1)
+    wind = steady(model, 1, 5.0)
+    wind[0, 0, 0] = np.nan
+    stepper.step(state, wind, wind, 2)
+    assert np.isnan(state.joints).any()
+
+
+def test_a_force_of_place_keeps_its_energy() -> None:
+    # The elastic part alone: without damping and air a swing keeps its height for a hundred periods.
+    material = Material(damping_ratio=0.0, wood_drag=0.0)
+    model = build_model(build_plant(straight(6.0, 8, 0.05, 0.02), material))
+    stepper, state = stepped(model, 1)
+    push(model, state, 0, model.link_count - 1, np.array([2.0, 0.0, 0.0]))
+    calm = steady(model, 1, 0.0)
+    heights = []
+    for _ in range(40):
+        swing = []
+        for _ in range(60):
+            stepper.step(state, calm, calm, 4)
+            swing.append(abs(float(posed(model, state).position[0, -1, 0])))
+        heights.append(max(swing))
+    assert heights[-1] == pytest.approx(heights[0], rel=0.01)

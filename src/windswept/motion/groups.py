@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from windswept.motion.lanes import WIDTH, settled, sqrt, store
+from windswept.motion.lanes import FAST_MATH, WIDTH, settled, sqrt, store
 from windswept.motion.level import (
     CENTRE,
     COUPLE,
@@ -29,13 +29,13 @@ _THRESHOLD: Any = _F(1e-7)
 """Pressures and rates below this, in (m/s)^2, are put to rest."""
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def air_of_group(wind, probe):  # type: ignore[no-untyped-def]
     """Air velocity and leaf reconfiguration at a group's probe."""
     return load4(wind, np.uintp(probe) * _W * np.uintp(4))
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def matrix_times(g, k, column, v):  # type: ignore[no-untyped-def]
     """The 3 x 3 matrix in nine columns of a group's constants, times a vector."""
     return (
@@ -45,7 +45,7 @@ def matrix_times(g, k, column, v):  # type: ignore[no-untyped-def]
     )
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def swing_group(g, k, air, groups, carrier):  # type: ignore[no-untyped-def]
     """Steps one group and gives the force and the moment about the origin on its carrier.
 

@@ -23,7 +23,9 @@ WIDTH = 8
 """Placements in one register: 8 float32 fill 256 bits, which every x86-64 since 2013 and any wider one does well."""
 
 _VECTOR = ir.VectorType(ir.FloatType(), WIDTH)
-_FAST = ("nnan", "ninf", "nsz", "contract", "arcp", "afn", "reassoc")
+FAST_MATH = {"nsz", "contract", "arcp", "afn", "reassoc"}
+"""What kernels may do to arithmetic; not "nnan": a broken number must stay one, or it would look like rest."""
+_FAST = tuple(sorted(FAST_MATH))
 
 
 class LanesType(types.Type):
@@ -152,12 +154,21 @@ def _lanes_settled(typingctx: Any, value: Any, threshold: Any) -> Any:
 
 
 @intrinsic
+def _lanes_at_least(typingctx: Any, value: Any, least: Any) -> Any:
+    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        low = _broadcast(builder, args[1])
+        return builder.select(builder.fcmp_ordered("<", args[0], low), low, args[0])
+
+    return lanes(lanes, types.float32), codegen
+
+
+@intrinsic
 def _lanes_clamped(typingctx: Any, value: Any, limit: Any) -> Any:
     def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         high = _broadcast(builder, args[1])
         low = builder.fsub(ir.Constant(_VECTOR, [0.0] * WIDTH), high, flags=_FAST)
-        capped = builder.select(builder.fcmp_ordered("<", args[0], high, flags=_FAST), args[0], high)
-        return builder.select(builder.fcmp_ordered(">", capped, low, flags=_FAST), capped, low)
+        capped = builder.select(builder.fcmp_ordered(">", args[0], high), high, args[0])
+        return builder.select(builder.fcmp_ordered("<", capped, low), low, capped)
 
     return lanes(lanes, types.float32), codegen
 
@@ -165,6 +176,11 @@ def _lanes_clamped(typingctx: Any, value: Any, limit: Any) -> Any:
 def sqrt(value: Any) -> Any:
     """Square root of Lanes or of a number."""
     return np.float32(np.sqrt(value))
+
+
+def at_least(value: Any, least: float) -> Any:
+    """The value, or the least where it is smaller."""
+    return max(value, least)
 
 
 def clamped(value: Any, limit: float) -> Any:
@@ -196,3 +212,10 @@ def _clamped(value, limit):  # type: ignore[no-untyped-def]
     if isinstance(value, LanesType):
         return lambda value, limit: _lanes_clamped(value, limit)
     return lambda value, limit: min(max(value, -limit), limit)
+
+
+@overload(at_least, inline="always")
+def _at_least(value, least):  # type: ignore[no-untyped-def]
+    if isinstance(value, LanesType):
+        return lambda value, least: _lanes_at_least(value, least)
+    return lambda value, least: max(value, least)

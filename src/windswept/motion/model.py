@@ -22,7 +22,8 @@ CONSTANT_COUNT = 32
 """Columns of ``Model.constants``; the kernels in springs.py read them by the numbers below."""
 AXIS_1, AXIS_2, VECTOR, ATTACH, OFFSET = 0, 3, 6, 9, 10
 DRAG_CENTRE, DRAG_LEAF, DRAG_WOOD, INVERSE_SQUARE, MOBILITY = 13, 14, 20, 21, 22
-COMPLIANCE_1, COMPLIANCE_2, STEP_XX, STEP_XV, STEP_VX, STEP_VV, PROPAGATION = 23, 24, 25, 26, 27, 28, 29
+COMPLIANCE_1, COMPLIANCE_2, STEP_XX, STEP_XV, STEP_VX, STEP_VV = 23, 24, 25, 26, 27, 28
+PROPAGATION, TENSION, HALF_STEP = 29, 30, 31
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,6 +143,36 @@ def drag_mobility(model: Model) -> Doubles:
     return mobility
 
 
+STABLE_SHARE = 4.0
+"""How much softer than the stability limit of one joint the air's own stiffness is kept, since joints act together."""
+
+
+def tension_per_force(model: Model) -> Doubles:
+    """(L,) stiffness that the air's pull gives a joint, times the inner step squared over inertia, per newton.
+
+    A force F beyond a joint resists a turn out of its line with the stiffness F x arm. The kernel feels that stiffness
+    only through the next step's torque, which is stable while stiffness x step^2 / inertia is small; where F makes it
+    larger than one, the kernel divides the joint's acceleration by it (no storm is too strong), and leaves the
+    equilibrium untouched.
+    """
+    skeleton, drag = model.skeleton, model.drag
+    at = skeleton.base + drag.centre[:, None] * skeleton.vector
+    weight = drag.leaf[:, :3].sum(axis=1) + drag.wood + 1e-30
+
+    def beyond(per_link: Doubles) -> Doubles:
+        """Sum over each link's subtree."""
+        summed = np.concatenate([np.zeros((1, *per_link.shape[1:])), np.cumsum(per_link, axis=0)])
+        return summed[skeleton.subtree_end] - summed[:-1]
+
+    whole = beyond(weight)
+    mean = beyond(weight[:, None] * at) / whole[:, None]
+    square = beyond(weight * np.sum(at**2, axis=1)) / whole
+    arm = np.sqrt(
+        np.maximum(square - 2.0 * np.sum(mean * skeleton.base, axis=1) + np.sum(skeleton.base**2, axis=1), 0)
+    )
+    return STABLE_SHARE * model.time_step**2 * arm / model.joint_inertia.min(axis=1)
+
+
 def pack_constants(model: Model) -> Floats:
     """(L, CONSTANT_COUNT) constants in the columns that the kernels read."""
     skeleton, drag = model.skeleton, model.drag
@@ -162,4 +193,6 @@ def pack_constants(model: Model) -> Floats:
     stem_step = exact_step(model.stem_frequency, model.damping_ratio, model.time_step)
     packed[:, STEP_XX : STEP_VV + 1] = stem_step[skeleton.stem]
     packed[:, PROPAGATION] = model.propagation
+    packed[:, HALF_STEP] = 0.5 * model.time_step
+    packed[:, TENSION] = tension_per_force(model)
     return packed

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit, prange
 
-from windswept.motion.lanes import WIDTH, load, store
+from windswept.motion.lanes import FAST_MATH, WIDTH, load, store
 from windswept.motion.level import Level
 from windswept.motion.model import ATTACH, AXIS_1, AXIS_2, OFFSET, VECTOR, Model
 from windswept.motion.registers import constant3, load3, load4, store3
@@ -44,12 +44,12 @@ def pose_links(model: Model, level: Level, state: State, ahead: float = 0.0) -> 
     return Pose(pose)
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _ahead(flat, i, rate, ahead):  # type: ignore[no-untyped-def]
     return load(flat, i) + load(flat, i + rate) * ahead
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _angles(listens, influence, joints, groups, ahead):  # type: ignore[no-untyped-def]
     """Both angles of a joint: its own, or its static influence of its group's pressure."""
     if listens >= 0:
@@ -67,7 +67,7 @@ def _angles(listens, influence, joints, groups, ahead):  # type: ignore[no-untyp
     )
 
 
-@njit(fastmath=True, parallel=True, cache=True)
+@njit(fastmath=FAST_MATH, parallel=True, cache=True)
 def _pose_tiles(c, parent, listens, influence, joints, groups, ahead, pose):  # type: ignore[no-untyped-def]
     tiles, count = joints.shape[0], len(parent)
     for tile in prange(tiles):

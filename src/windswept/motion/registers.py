@@ -5,18 +5,18 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from windswept.motion.lanes import WIDTH, load, store
+from windswept.motion.lanes import FAST_MATH, WIDTH, load, store
 
 _W = np.uintp(WIDTH)
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def load3(a, i):  # type: ignore[no-untyped-def]
     """Three consecutive registers."""
     return load(a, i), load(a, i + _W), load(a, i + _W + _W)
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def store3(a, i, v):  # type: ignore[no-untyped-def]
     """Writes three consecutive registers."""
     store(a, i, v[0])
@@ -24,20 +24,20 @@ def store3(a, i, v):  # type: ignore[no-untyped-def]
     store(a, i + _W + _W, v[2])
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def load4(a, i):  # type: ignore[no-untyped-def]
     """Four consecutive registers."""
     v = load3(a, i)
     return v[0], v[1], v[2], load(a, i + _W * np.uintp(3))
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def constant3(constants, link, column):  # type: ignore[no-untyped-def]
     """Three columns of a link's constants."""
     return constants[link, column], constants[link, column + 1], constants[link, column + 2]
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def tensor_times(constants, row, column, v):  # type: ignore[no-untyped-def]
     """The symmetric tensor xx, yy, zz, xy, xz, yz in six columns of constants, times a vector."""
     xx, yy, zz = constant3(constants, row, column)

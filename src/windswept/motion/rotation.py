@@ -7,31 +7,33 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from windswept.motion.lanes import FAST_MATH
+
 Vector = tuple[Any, Any, Any]
 Quaternion = tuple[Any, Any, Any, Any]
 
 _F = np.float32
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def cross(a: Vector, b: Vector) -> Vector:
     """Cross product."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def dot(a: Vector, b: Vector) -> Any:
     """Scalar product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def add_scaled(a: Vector, b: Vector, s: Any) -> Vector:
     """``a + s b``."""
     return a[0] + b[0] * s, a[1] + b[1] * s, a[2] + b[2] * s
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
     """Quaternion product: first b, then a."""
     return (
@@ -42,7 +44,7 @@ def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
     )
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def rotate(q: Quaternion, v: Vector) -> Vector:
     """``v`` turned by unit quaternion ``q``: v + 2 w (q x v) + 2 q x (q x v)."""
     t = cross((q[0], q[1], q[2]), v)
@@ -51,7 +53,7 @@ def rotate(q: Quaternion, v: Vector) -> Vector:
     return v[0] + q[3] * t[0] + s[0], v[1] + q[3] * t[1] + s[1], v[2] + q[3] * t[2] + s[2]
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def rotate_back(q: Quaternion, v: Vector) -> Vector:
     """``v`` turned by the inverse of unit quaternion ``q``."""
     t = cross(v, (q[0], q[1], q[2]))
@@ -60,7 +62,7 @@ def rotate_back(q: Quaternion, v: Vector) -> Vector:
     return v[0] + q[3] * t[0] + s[0], v[1] + q[3] * t[1] + s[1], v[2] + q[3] * t[2] + s[2]
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def from_rotation_vector(v: Vector) -> Quaternion:
     """Unit quaternion of a rotation vector of up to pi, by Taylor series in the half angle (error below 3e-7
     to 2 rad, 3e-5 at pi).

@@ -2,7 +2,8 @@
 
 One step, for one placement::
 
-    pose    root to leaf   rotation and place of every link from the joint angles
+    pose    root to leaf   rotation and place of every link from the joint angles, half a step ahead: a force that
+                           depends on place then neither feeds nor drains the motion
     drag                   force of the wind on the link, from the air's velocity relative to it
     load    leaf to root   force F and moment M of everything beyond the joint
     joint                  towards the angle compliance x torque, by the exact damped-oscillator step
@@ -19,7 +20,7 @@ from numba import get_num_threads, get_thread_id, njit, prange
 
 from windswept.motion.drag import reconfiguration
 from windswept.motion.groups import air_of_group, swing_group
-from windswept.motion.lanes import WIDTH, clamped, load, settled, sqrt, store
+from windswept.motion.lanes import FAST_MATH, WIDTH, at_least, clamped, load, settled, sqrt, store
 from windswept.motion.level import Level
 from windswept.motion.model import (
     ATTACH,
@@ -30,6 +31,7 @@ from windswept.motion.model import (
     DRAG_CENTRE,
     DRAG_LEAF,
     DRAG_WOOD,
+    HALF_STEP,
     INVERSE_SQUARE,
     MOBILITY,
     OFFSET,
@@ -38,6 +40,7 @@ from windswept.motion.model import (
     STEP_VX,
     STEP_XV,
     STEP_XX,
+    TENSION,
     VECTOR,
 )
 from windswept.motion.registers import constant3, load3, load4, store3, tensor_times
@@ -68,10 +71,12 @@ _SUM = np.uintp(6 * WIDTH)
 """Scratch of a depth: summed force and moment of the links hanging there."""
 _THRESHOLD: Any = _F(REST_THRESHOLD)
 _LIMIT: Any = _F(MAX_ANGLE)
+_STOP: Any = _F(2.0 * MAX_ANGLE)
+_ONE: Any = _F(1.0)
 _TINY = _F(1e-30)
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def drag_force(c, link, wind, v, d):  # type: ignore[no-untyped-def]
     """Force on a link: wind (velocity and leaf reconfiguration), velocity v of the drag centre, link vector d."""
     u = add_scaled(wind, v, _F(-1.0))
@@ -83,17 +88,21 @@ def drag_force(c, link, wind, v, d):  # type: ignore[no-untyped-def]
     return leaf[0] * f + across[0] * w, leaf[1] * f + across[1] * w, leaf[2] * f + across[2] * w
 
 
-@njit(fastmath=True, forceinline=True)
-def oscillate(c, link, torque, angle, velocity, compliance):  # type: ignore[no-untyped-def]
-    """The exact step of one spring towards compliance x torque, at most MAX_ANGLE."""
-    target = clamped(torque * compliance, _LIMIT)
-    y = angle - target
+@njit(fastmath=FAST_MATH, forceinline=True)
+def oscillate(c, link, torque, angle, velocity, compliance, tension):  # type: ignore[no-untyped-def]
+    """The exact step of one spring towards compliance x torque, at most MAX_ANGLE.
+
+    ``tension`` is 1 but in storms, where the pull of the air on a limp branch is a stiffer spring than its wood:
+    then it slows the way to the equilibrium, and does not move the equilibrium.
+    """
+    y = (angle - clamped(torque * compliance, _LIMIT)) / tension
+    target = angle - y
     moved = target + y * c[link, STEP_XX] + velocity * c[link, STEP_XV]
     swung = y * c[link, STEP_VX] + velocity * c[link, STEP_VV]
-    return settled(moved, _THRESHOLD), settled(swung, _THRESHOLD)
+    return settled(clamped(moved, _STOP), _THRESHOLD), settled(swung, _THRESHOLD)
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _pose_and_drag(  # type: ignore[no-untyped-def]
     c, depth, probe, g, group_start, group_probe, joints, groups, wind, a, slots
 ):
@@ -111,8 +120,9 @@ def _pose_and_drag(  # type: ignore[no-untyped-def]
         above = slots + np.uintp(depth[link]) * _SLOT
         here = above + _SLOT
         first, second = constant3(c, link, AXIS_1), constant3(c, link, AXIS_2)
-        angle_1, angle_2 = load(joints, joint), load(joints, joint + one + one)
         rate_1, rate_2 = load(joints, joint + one), load(joints, joint + three)
+        angle_1 = load(joints, joint) + rate_1 * c[link, HALF_STEP]
+        angle_2 = load(joints, joint + one + one) + rate_2 * c[link, HALF_STEP]
         turn = (
             angle_1 * first[0] + angle_2 * second[0],
             angle_1 * first[1] + angle_2 * second[1],
@@ -152,7 +162,7 @@ def _pose_and_drag(  # type: ignore[no-untyped-def]
         store3(a, record + ten, moment)
 
 
-@njit(fastmath=True, forceinline=True)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _load_and_swing(c, depth, probe, joints, a, sums):  # type: ignore[no-untyped-def]
     """Leaf to root: sums force and moment of every subtree and steps its joint."""
     one, three, four = _W, _W * np.uintp(3), _W * np.uintp(4)
@@ -171,6 +181,7 @@ def _load_and_swing(c, depth, probe, joints, a, sums):  # type: ignore[no-untype
         store3(a, here + three, add_scaled(load3(a, here + three), moment, pass_on))
         arm = cross(load3(a, record + four), force)
         torque = rotate_back(load4(a, np.uintp(probe[link, 1]) * _RECORD), add_scaled(moment, arm, _F(-1.0)))
+        tension = at_least(sqrt(dot(force, force) + _TINY) * c[link, TENSION], _ONE)
         joint = link * four
         angle, rate = oscillate(
             c,
@@ -179,6 +190,7 @@ def _load_and_swing(c, depth, probe, joints, a, sums):  # type: ignore[no-untype
             load(joints, joint),
             load(joints, joint + one),
             c[link, COMPLIANCE_1],
+            tension,
         )
         store(joints, joint, angle)
         store(joints, joint + one, rate)
@@ -189,12 +201,13 @@ def _load_and_swing(c, depth, probe, joints, a, sums):  # type: ignore[no-untype
             load(joints, joint + one + one),
             load(joints, joint + three),
             c[link, COMPLIANCE_2],
+            tension,
         )
         store(joints, joint + one + one, angle)
         store(joints, joint + three, rate)
 
 
-@njit(fastmath=True, parallel=True, cache=True)
+@njit(fastmath=FAST_MATH, parallel=True, cache=True)
 def _step_tiles(  # type: ignore[no-untyped-def]
     c,
     depth,

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from windswept.motion.drag import reconfiguration
-from windswept.motion.model import Model, drag_mobility, exact_step
+from windswept.motion.model import Model, drag_mobility, exact_step, tension_per_force
 from windswept.motion.rods import Doubles
 from windswept.motion.springs import MAX_ANGLE
 
@@ -45,7 +45,8 @@ def step_plain(
 
     """
     skeleton, drag = model.skeleton, model.drag
-    rotation, position = pose_plain(model, angles)
+    # Half a step ahead: forces held over a step are those of its middle.
+    rotation, position = pose_plain(model, angles + 0.5 * model.time_step * velocities)
     count = model.link_count
     spin, velocity = np.zeros((count, 3)), np.zeros((count, 3))
     force, moment = np.zeros((count, 3)), np.zeros((count, 3))
@@ -83,5 +84,6 @@ def step_plain(
             force[parent] += model.propagation[link] * force[link]
             moment[parent] += model.propagation[link] * moment[link]
     target = np.clip(model.rods.compliance * torque, -MAX_ANGLE, MAX_ANGLE)
-    y = angles - target
-    return target + xx * y + xv * velocities, vx * y + vv * velocities
+    y = (angles - target) / np.maximum(np.linalg.norm(force, axis=1) * tension_per_force(model), 1.0)[:, None]
+    moved = np.clip(angles - y + xx * y + xv * velocities, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE)
+    return moved, vx * y + vv * velocities
