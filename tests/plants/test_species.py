@@ -168,6 +168,10 @@ def test_bad_value(message_of, old, new, said):
             "[material]\nyoungs_modulus = 0\n",
             "material.youngs_modulus = 0: expected a number from 1,000,000 to 1e+11",
         ),
+        (
+            "[material]\ndamping_ratio = 1.0\n",
+            "material.damping_ratio = 1.0: expected a number from 0 to 0.95",
+        ),
         ("[loook]\na = 1\n", "loook: expected a known key: did you mean look?"),
         ('"a\\nb" = 1\n', "growth.level[1].a b: expected a known key"),
         ("x = [1,\n", "line 14: expected valid TOML (Invalid value)"),

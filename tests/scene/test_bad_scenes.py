@@ -48,9 +48,13 @@ BAD = {
         {"plant": [PLANT | {"source": "hazle"}]},
         "plant[0].source = 'hazle': expected a built-in species: did you mean hazel?",
     ),
-    "missing species file": (
-        {"stand": [STAND | {"source": [{"source": "no/such.toml"}]}]},
-        "stand[0].source[0].source = 'no/such.toml': expected a species file that exists",
+    "missing plant source": (
+        {"stand": [STAND | {"source": [{"source": "no/such.npz"}]}]},
+        "stand[0].source[0].source = 'no/such.npz': expected a plant source that exists",
+    ),
+    "waves too short to travel": (
+        {"wind": {"waves": [WAVE | {"wavelength_m": 1e-300}]}},
+        "wind.waves[0].wavelength_m = 1e-300: expected a number from 0.1 to 10,000",
     ),
     "off the ground": ({"plant": [PLANT | {"position": [0.0, 150.0]}]}, "expected x and y from -100 to 100"),
     "area off the ground": (

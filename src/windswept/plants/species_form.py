@@ -134,7 +134,7 @@ class MaterialForm(Form):
     """Bending modulus of green wood, Pa."""
     wood_density: Annotated[float, Field(ge=50, le=2000)] = _MATERIAL["wood_density"]
     """Green wood, kg/m3."""
-    damping_ratio: Annotated[float, Field(ge=0, le=1)] = _MATERIAL["damping_ratio"]
+    damping_ratio: Annotated[float, Field(ge=0, le=0.95)] = _MATERIAL["damping_ratio"]
     """Structural damping over critical, without the air."""
     leaf_mass: Annotated[float, Field(ge=0.001, le=20)] = _MATERIAL["leaf_mass"]
     """Fresh leaf mass per area, kg/m2."""

@@ -18,7 +18,7 @@ Box = Annotated[tuple[Coordinate, Coordinate, Coordinate, Coordinate], Field(str
 Angle = Annotated[float, Field(ge=-360, le=360)]
 Time = Annotated[float, Field(ge=-3600, le=86_400)]
 Length = Annotated[float, Field(ge=0, le=10_000)]
-Speed = Annotated[float, Field(gt=0, le=100)]
+Speed = Annotated[float, Field(ge=0.01, le=100)]
 Source = Annotated[str, Field(min_length=1, max_length=1000)]
 Seed = Annotated[int, Field(ge=0, le=2**31 - 1)]
 
@@ -47,7 +47,7 @@ class GustForm(Form):
     """Where the front is at the start, x and y in m."""
     direction_degrees: Angle | None = None
     """Where it travels and pushes to, counter-clockwise from +x; left out: as the mean wind."""
-    speed_m_s: Annotated[float, Field(gt=0, le=1e6)] = 12.0
+    speed_m_s: Annotated[float, Field(ge=0.01, le=1e6)] = 12.0
     """How fast the front travels."""
     rise_m: Length = 15.0
     """From the front to full strength; 0 for a sudden front."""
@@ -55,14 +55,14 @@ class GustForm(Form):
     """At full strength."""
     decay_m: Length = 30.0
     """From full strength to nothing."""
-    width_m: Annotated[float, Field(gt=0, le=10_000)] | None = None
+    width_m: Annotated[float, Field(ge=0.1, le=10_000)] | None = None
     """From the middle to either side, where it has faded to nothing; left out: endless."""
 
 
 class WaveForm(Form):
     """A train of sine waves of air speed (Skjermo 2007), on top of mean wind and turbulence."""
 
-    wavelength_m: Annotated[float, Field(gt=0, le=10_000)]
+    wavelength_m: Annotated[float, Field(ge=0.1, le=10_000)]
     """From crest to crest."""
     speed_m_s: Speed
     """How fast the crests travel."""

@@ -34,7 +34,7 @@ def find_source(file: str, place: str, source: str) -> str:
         return source
     path = Path(file).parent / source
     if not path.is_file():
-        raise InputError(file, place, source, f"a species file that exists (looked for {path})")
+        raise InputError(file, place, source, f"a plant source that exists (looked for {path})")
     check_source(path)
     if path.suffix.lower() == SPECIES_ENDING:
         load_species(path)
