@@ -14,7 +14,7 @@ from windswept.levels import Eye
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Scene
 from windswept.scene.simulation import Simulation
-from windswept.wind.wind import Wind
+from windswept.wind.blown import blown
 
 PICTURE_HEIGHT = 720
 """Pixels that the window opens with; simulation levels are chosen for it."""
@@ -71,8 +71,3 @@ def view_scene(scene: Scene, level_colours: bool = False) -> None:
         "windswept",
         LEVEL_LOOKS,
     )
-
-
-def blown(wind: Wind, speed: float, azimuth: float) -> Wind:
-    """The same wind with another mean speed (m/s) and azimuth (rad)."""
-    return replace(wind, mean=replace(wind.mean, speed=speed, azimuth=azimuth))
