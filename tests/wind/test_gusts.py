@@ -1,4 +1,4 @@
-"""Verification of gust fronts: arrival, shape, width, and the sudden step."""
+"""Verification of gust fronts: arrival, shape, width, and sudden fronts."""
 
 import math
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from windswept.errors import InputError
-from windswept.wind.gusts import Gust, gust_step
+from windswept.wind.gusts import Gust
 from windswept.wind.velocity import velocity_reference
 from windswept.wind.wind import Wind
 
@@ -47,17 +47,21 @@ def test_width_fades_to_the_sides() -> None:
     assert series == pytest.approx([8.0, 4.0, 4.0, 0.0, 0.0], abs=1e-9)
 
 
-def test_step_is_sudden_everywhere_and_stays() -> None:
+SUDDEN = {"start": 3.0, "strength": 12.0, "speed": 1e6, "rise_length": 0.0, "decay_length": 0.0}
+
+
+def test_a_fast_endless_front_is_sudden_everywhere_and_stays() -> None:
+    gust = Gust(**SUDDEN, hold_length=math.inf)
     places = [(-400.0, 0.0), (0.0, 0.0), (300.0, 200.0)]
-    assert not at(gust_step(3.0, 12.0), places, 2.99).any()
-    np.testing.assert_allclose(at(gust_step(3.0, 12.0), places, 3.01)[:, 0], 12.0)
-    np.testing.assert_allclose(at(gust_step(3.0, 12.0), places, 4000.0)[:, 0], 12.0)
+    assert not at(gust, places, 2.99).any()
+    np.testing.assert_allclose(at(gust, places, 3.01)[:, 0], 12.0)
+    np.testing.assert_allclose(at(gust, places, 4000.0)[:, 0], 12.0)
 
 
-def test_step_ends_after_its_duration() -> None:
-    step = gust_step(3.0, 12.0, duration=2.0)
-    assert at(step, [(0.0, 0.0)], 4.99)[0, 0] == pytest.approx(12.0)
-    assert at(step, [(0.0, 0.0)], 5.01)[0, 0] == 0.0
+def test_a_sudden_gust_ends_as_suddenly() -> None:
+    gust = Gust(**SUDDEN, hold_length=2e6)
+    assert at(gust, [(0.0, 0.0)], 4.99)[0, 0] == pytest.approx(12.0)
+    assert at(gust, [(0.0, 0.0)], 5.01)[0, 0] == 0.0
 
 
 @pytest.mark.parametrize(

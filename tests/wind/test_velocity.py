@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from windswept.wind.gusts import Gust, gust_step
+from windswept.wind.gusts import Gust
 from windswept.wind.mean import MeanWind, Profile, profile_factor
 from windswept.wind.plausible_waves import plausible_waves
 from windswept.wind.velocity import ALONE, velocity, velocity_reference
@@ -26,7 +26,7 @@ WINDS = {
     "printed": Wind(waves=WaveSchedule((WaveSet(PRINTED),))),
     "blend": Wind(waves=WaveSchedule((WaveSet(PLAUSIBLE, end=6.0), WaveSet(REAL_POWERS, start=4.0)))),
     "gust": Wind(gusts=(Gust(1.0, 9.0, azimuth=0.3, width=60.0),)),
-    "step": Wind(gusts=(gust_step(2.0, 9.0, azimuth=2.0),)),
+    "step": Wind(gusts=(Gust(2.0, 9.0, 2.0, speed=1e6, rise_length=0.0, hold_length=math.inf),)),
 }
 WINDS["all"] = Wind(
     profile=Profile(0.3),

@@ -1,4 +1,4 @@
-"""Gust fronts that travel over the ground, and a sudden step for stress tests."""
+"""Gust fronts that travel over the ground."""
 
 from __future__ import annotations
 
@@ -9,9 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windswept.errors import InputError
-
-EVERYWHERE_AT_ONCE = 1e6
-"""Travel speed of a step, m/s: it crosses a kilometre in a millisecond."""
 
 
 @dataclass(frozen=True)
@@ -54,19 +51,6 @@ class Gust:
         for name in ("rise_length", "hold_length", "decay_length"):
             if not getattr(self, name) >= 0.0:
                 raise InputError("gust", name, getattr(self, name), "a length of 0 m or more")
-
-
-def gust_step(start: float, strength: float, azimuth: float = 0.0, duration: float = math.inf) -> Gust:
-    """A sudden wind everywhere at once from ``start`` for ``duration`` seconds: for stress tests."""
-    return Gust(
-        start=start,
-        strength=strength,
-        azimuth=azimuth,
-        speed=EVERYWHERE_AT_ONCE,
-        rise_length=0.0,
-        hold_length=duration * EVERYWHERE_AT_ONCE,
-        decay_length=0.0,
-    )
 
 
 GUST_COLUMNS = (

@@ -10,9 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from windswept.errors import InputError
 
-KARMAN = 0.41
-"""von Karman's constant (PHYSICS B5)."""
-
 
 @dataclass(frozen=True)
 class Profile:
@@ -90,8 +87,3 @@ def profile_factor(profile: Profile, height: ArrayLike) -> NDArray[np.float64]:
     above = np.log((np.maximum(z, join) - profile.displacement) / profile.roughness)
     below = np.exp(profile.attenuation * (np.minimum(z, join) / join - 1.0))
     return np.where(z >= join, above, below) / profile.log_reference
-
-
-def friction_velocity(profile: Profile, speed: float) -> float:
-    """u* of U(z) = (u*/kappa) ln((z-d)/z0) for a speed at the reference height, m/s (PHYSICS B5)."""
-    return KARMAN * speed / profile.log_reference
