@@ -47,19 +47,24 @@ def breezy() -> Wind:
     return load_scene("hazel").wind
 
 
-def test_frame_rate_does_not_matter(breezy: Wind) -> None:
-    ends, amplitude = [], 0.0
+@pytest.mark.parametrize("levels", [False, True])
+def test_frame_rate_does_not_matter(breezy: Wind, levels: bool) -> None:
+    ends, poses, amplitude = [], [], 0.0
     for rate in (30, 60, 144):
         scene, plants = row_of_trees(breezy)
-        simulation = Simulation(scene, plants)
+        simulation = Simulation(scene, plants, levels=levels)
         for _ in range(10 * rate):
             simulation.advance(1.0 / rate)
             amplitude = max(amplitude, float(np.abs(tops(simulation)).max()))
         assert simulation.step_count == 1200
-        ends.append(simulation.kinds[0].sets[0].state.joints.copy())
+        ends.append([one.state.joints.copy() for one in simulation.kinds[0].sets])
+        poses.append(simulation.pose[0].link.copy())
     assert amplitude > 0.01
-    assert np.array_equal(ends[0], ends[1])
-    assert np.array_equal(ends[0], ends[2])
+    for other in (1, 2):
+        for first, second in zip(ends[0], ends[other], strict=True):
+            assert np.array_equal(first, second)
+        # The pose goes on from the last step to the sum of all frames' times, which is rounded.
+        np.testing.assert_allclose(poses[0], poses[other], atol=1e-5)
 
 
 def test_calm_is_still() -> None:
