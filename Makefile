@@ -27,14 +27,24 @@ format: .venv/.installed-dev
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-$(BIN)/python:
-	$(PYTHON) -m venv .venv
+# Debian's python3 without python3-venv makes an environment without pip and fails: that is removed, also if it is
+# left over from before.
+.venv/.made:
+	@if ! $(BIN)/python -m pip --version >/dev/null 2>&1; then \
+		rm -rf .venv; \
+		$(PYTHON) -m venv .venv >/dev/null || { \
+			rm -rf .venv; \
+			echo "no virtual environment could be made; on Debian and Ubuntu: apt-get install python3-venv" >&2; \
+			exit 1; \
+		}; \
+	fi
+	@touch $@
 
-.venv/.installed: pyproject.toml constraints.txt | $(BIN)/python
+.venv/.installed: pyproject.toml constraints.txt | .venv/.made
 	$(PIP) install --quiet --constraint constraints.txt --editable '.[view]'
 	touch $@
 
-.venv/.installed-dev: pyproject.toml constraints.txt | $(BIN)/python
+.venv/.installed-dev: pyproject.toml constraints.txt | .venv/.made
 	$(PIP) install --quiet --constraint constraints.txt --editable '.[view,dev]'
 	touch $@ .venv/.installed
 
