@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import click
 
@@ -10,9 +11,7 @@ import click
 class FiniteRange(click.FloatRange):
     """A finite number in a range; click's own range lets nan through, since nan is below and above nothing."""
 
-    def convert(
-        self, value: object, parameter: click.Parameter | None, context: click.Context | None
-    ) -> float:
+    def convert(self, value: Any, parameter: click.Parameter | None, context: click.Context | None) -> float:
         """The number, or a line that says what is wrong with it."""
         number: float = super().convert(value, parameter, context)
         if not math.isfinite(number):
