@@ -55,15 +55,14 @@ def seconds_per_step(model: Model, placements: int) -> float:
 
 
 def bytes_per_link_step(placements: int) -> float:
-    """Bytes that the kernel reads and writes for one link of one placement in one step.
+    """Bytes that one link of one placement asks the memory for in one step, once the plant spills the cache.
 
     Joints (4 numbers, read by both walks, written by one), the link's record (13, written and read), and its
-    constants and indices, read by both walks and shared by the placements of a tile. A tile always moves whole.
+    constants and indices, read by both walks and shared by the placements of a tile. Idle lanes are not counted.
     """
-    used = min(placements, WIDTH)
     per_lane = 4 * (4 * 3 + 13 * 2)
     shared = 2 * (4 * CONSTANT_COUNT + 12)
-    return per_lane * WIDTH / used + shared / used
+    return per_lane + shared / min(placements, WIDTH)
 
 
 def mujoco_seconds_per_step(model: Model) -> float:
