@@ -18,8 +18,8 @@ from windswept.render.files import written_whole
 Picture = NDArray[np.uint8]
 
 VIDEO_ENDINGS = (".mp4", ".webp")
-MP4_QUALITY = "18"
-"""x264's constant rate factor: 18 is hard to tell from the original."""
+MP4_QUALITY = "23"
+"""x264's constant rate factor, its own default: leaves in wind take many bytes."""
 WEBP_QUALITY = 80
 
 
