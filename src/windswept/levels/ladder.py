@@ -16,7 +16,7 @@ from windswept.motion.rods import Doubles
 
 STATED_WIND = 12.0
 """Wind speed that the errors of a ladder are stated for, m/s."""
-STEP = 0.7
+STEP = 0.55
 """Each level has at most this many times the oscillators of the one before."""
 TYPICAL_TO_95 = 2.0
 """95th percentile over standard deviation of the mismatch."""

@@ -76,7 +76,8 @@ class MovingKind:
         self.wanted = self.at.copy()
         """(P,) coarsest level that the camera allows each."""
         self.blends: dict[int, Blend] = {}
-        self._radius = float(np.linalg.norm(plant.link_tip, axis=1).max())
+        self.radius = float(np.linalg.norm(plant.link_tip, axis=1).max())
+        """Of a ball round the root that holds the plant, m."""
 
     @property
     def stepped_count(self) -> int:
@@ -97,7 +98,7 @@ class MovingKind:
             if time >= blend.start + BLEND_TIME:
                 self.sets[blend.source].remove(placement)
                 del self.blends[placement]
-        away = np.linalg.norm(self.placements.position - eye.position, axis=1) - self._radius
+        away = np.linalg.norm(self.placements.position - eye.position, axis=1) - self.radius
         self.wanted = choose(self.ladder, eye, np.maximum(away, 0.1), self.wanted)
         given = fill_registers(self.wanted)
         for changing in np.flatnonzero(given != self.at).tolist():
