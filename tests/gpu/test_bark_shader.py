@@ -91,6 +91,8 @@ def test_the_card_draws_the_same_surface(device, taper):
         stem_flare=np.full(stems, 0.8, np.float32),
         stem_lobes=np.full(stems, 5.0, np.float32),
         stem_lobe_depth=np.full(stems, 0.1, np.float32),
+        bulges=6,
+        bulge_depth=0.08,
     )
     curves = pose_curves(geometry, plant.link_base, shaken_pose(plant, 5, angle=0.15))
     rng = np.random.default_rng(1)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from windswept.plants.radius import flare_factor, lobe_factor, taper_radius, unit_taper
+from windswept.plants.radius import bulge_factor, flare_factor, lobe_factor, taper_radius, unit_taper
 
 
 @pytest.mark.parametrize(
@@ -58,3 +58,10 @@ def test_lobes_bulge_as_often_as_asked():
     assert factor.max() == pytest.approx(1.07, abs=1e-4)
     assert np.count_nonzero(np.diff(np.sign(np.diff(factor))) < 0) == 5
     assert lobe_factor(0, 0.3, 1.0) == 1.0
+
+
+def test_bulges_swell_and_narrow_along_the_stem():
+    # Skjermo equation 4: 1 + b_d sin(2 pi b_n v).
+    found = bulge_factor(5, 0.1, [0.0, 0.05, 0.1, 0.15, 1.0])
+    np.testing.assert_allclose(found, [1.0, 1.1, 1.0, 0.9, 1.0], atol=1e-12)
+    np.testing.assert_array_equal(bulge_factor(0, 0.1, [0.0, 0.3]), 1.0)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from windswept.geometry.geometry import Geometry, PosedCurves
 from windswept.plants.plant import Ints
-from windswept.plants.radius import flare_factor, lobe_factor, taper_radius
+from windswept.plants.radius import bulge_factor, flare_factor, lobe_factor, taper_radius
 
 Doubles = NDArray[np.float64]
 
@@ -112,7 +112,8 @@ def stem_radius(geometry: Geometry, stem: Ints, span: Doubles) -> Doubles:
     taper = taper_radius(
         geometry.stem_radius[stem], geometry.stem_taper[stem], z, geometry.stem_taper_length[stem]
     )
-    return taper * flare_factor(geometry.stem_flare[stem], z)
+    bulge = bulge_factor(geometry.bulges, geometry.bulge_depth, z)
+    return taper * flare_factor(geometry.stem_flare[stem], z) * bulge
 
 
 def _profile(geometry: Geometry, piece: Ints, t: Doubles) -> tuple[Doubles, Doubles]:

@@ -55,6 +55,10 @@ class Geometry:
     """(S,) number of lobes."""
     stem_lobe_depth: Floats
     """(S,) depth of lobes over radius."""
+    bulges: int
+    """Swellings along every stem."""
+    bulge_depth: float
+    """Their depth over the radius."""
     stem_taper_span: Floats
     """(S, 2) Z of the taper at the stem's own base and tip: (0, 1) but for clones."""
     stem_taper_length: Floats

@@ -96,11 +96,12 @@ def _stems(geometry: Geometry, order: DetailOrder) -> NDArray[np.void]:
     rows["extent"] = _columns(
         geometry.stem_lobe_depth, *geometry.stem_taper_span.T, geometry.stem_taper_length
     )
-    rows["attach"] = _columns(geometry.stem_attach_t, stem_size(geometry), geometry.stem_reach, 0.0)
+    depth = geometry.bulge_depth
+    rows["attach"] = _columns(geometry.stem_attach_t, stem_size(geometry), geometry.stem_reach, depth)
     is_trunk = geometry.stem_parent < 0
     parent = np.where(is_trunk, layouts.NONE, geometry.stem_parent)
     piece = np.where(is_trunk, 0, rank[geometry.stem_attach_piece])
-    rows["rows"] = _columns(parent, geometry.stem_link, piece, 0)
+    rows["rows"] = _columns(parent, geometry.stem_link, piece, geometry.bulges)
     return rows
 
 

@@ -40,6 +40,10 @@ class Look:
     bark_colour: tuple[float, float, float] = (0.22, 0.17, 0.12)
     bark_relief: float = 0.5
     """Depth of the bark's normal detail, 0 smooth to 1 deeply furrowed."""
+    bark_bulges: int = 0
+    """Swellings along a stem (Skjermo's b_n)."""
+    bark_bulge_depth: float = 0.0
+    """Their depth as a fraction of the radius (Skjermo's b_d)."""
     leaf_colour: tuple[float, float, float] = (0.10, 0.22, 0.04)
     leaf_back_colour: tuple[float, float, float] = (0.16, 0.28, 0.10)
     leaf_shape: str = "oval"

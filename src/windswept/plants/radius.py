@@ -62,6 +62,18 @@ def flare_factor(flare: ArrayLike, z: ArrayLike) -> Reals:
     return 1.0 + np.asarray(flare, np.float64) * (np.power(100.0, reach) - 1.0) / 100.0
 
 
+def bulge_factor(bulges: ArrayLike, depth: ArrayLike, z: ArrayLike) -> Reals:
+    """Factor on the radius of a stem that swells and narrows along its length (Skjermo 2007, equation 4).
+
+    Args:
+        bulges: number of swellings from base to tip.
+        depth: of the swellings, a fraction of the radius.
+        z: position Z along the stem, 0 at the base, 1 at the tip.
+    """
+    turns = 2.0 * np.pi * np.asarray(bulges, np.float64) * np.asarray(z, np.float64)
+    return 1.0 + np.asarray(depth, np.float64) * np.sin(turns)
+
+
 def lobe_factor(lobes: ArrayLike, depth: ArrayLike, angle: ArrayLike) -> Reals:
     """Factor on the radius round a lobed stem.
 

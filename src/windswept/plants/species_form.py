@@ -155,6 +155,10 @@ class LookForm(Form):
     """Linear RGB."""
     bark_relief: Share = _LOOK["bark_relief"]
     """Depth of the bark: 0 smooth, 1 deeply furrowed."""
+    bark_bulges: Annotated[int, Field(ge=0, le=200)] = _LOOK["bark_bulges"]
+    """Swellings along a stem."""
+    bark_bulge_depth: Annotated[float, Field(ge=0, le=0.9)] = _LOOK["bark_bulge_depth"]
+    """Depth of the swellings over the radius."""
     leaf_colour: Colour = _LOOK["leaf_colour"]
     """Linear RGB of the upper face."""
     leaf_back_colour: Colour = _LOOK["leaf_back_colour"]

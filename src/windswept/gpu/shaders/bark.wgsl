@@ -59,8 +59,12 @@ fn profile(stem: Stem, span: f32) -> vec2f {
     let z = mix(stem.extent.y, stem.extent.z, span);
     let taper = taper_radius(stem, z);
     let flare = flare_factor(stem.profile.z, z);
-    let slope = taper.x * flare.y + taper.y * flare.x;
-    return vec2f(taper.x * flare.x, slope * (stem.extent.z - stem.extent.y));
+    let smooth_radius = taper.x * flare.x;
+    let smooth_slope = taper.x * flare.y + taper.y * flare.x;
+    let rate = 6.283185307 * f32(stem.rows.w);
+    let bulge = 1.0 + stem.attach.w * sin(rate * z);
+    let slope = smooth_slope * bulge + smooth_radius * stem.attach.w * rate * cos(rate * z);
+    return vec2f(smooth_radius * bulge, slope * (stem.extent.z - stem.extent.y));
 }
 
 fn surface(piece: PosedPiece, stem: Stem, t: f32, angle: f32) -> Surface {

@@ -38,8 +38,8 @@ struct LinkPose {
 struct Stem {
     profile: vec4f,   // radius, m; taper; flare; lobes
     extent: vec4f,    // lobe depth; taper's Z at base and tip; taper length, m
-    attach: vec4f,    // parameter on the parent's piece; size for detail, m; length, m; 0
-    rows: vec4u,      // parent stem or NONE; first link; parent's piece; 0
+    attach: vec4f,    // parameter on the parent's piece; size for detail, m; length, m; bulge depth
+    rows: vec4u,      // parent stem or NONE; first link; parent's piece; bulges
 }
 
 struct Piece {
