@@ -41,7 +41,7 @@ class Look:
     bark_relief: float = 0.5
     """Depth of the bark's normal detail, 0 smooth to 1 deeply furrowed."""
     bark_bulges: int = 0
-    """Swellings along a stem (Skjermo's b_n)."""
+    """Swellings along a stem (Skjermo's b_n); the drawn mesh resolves a few to each piece of its curve."""
     bark_bulge_depth: float = 0.0
     """Their depth as a fraction of the radius (Skjermo's b_d)."""
     leaf_colour: tuple[float, float, float] = (0.10, 0.22, 0.04)
