@@ -161,9 +161,12 @@ fn bumped(normal: vec3f, world: vec3f, height: f32) -> vec3f {
     return normalize(abs(scale) * normal - slope + 1e-9 * normal);
 }
 
-// Young wood is brown whatever the trunk's bark.
+// Young wood is brown whatever the trunk's bark, but for stems that are of a colour of their own: green, red, straw.
 fn wood_colour(bark: vec3f, radius: f32) -> vec3f {
-    return mix(bark, vec3f(0.13, 0.095, 0.06), 0.75 * smoothstep(0.035, 0.010, radius));
+    let most = max(bark.r, max(bark.g, bark.b));
+    let least = min(bark.r, min(bark.g, bark.b));
+    let plain = smoothstep(0.70, 0.58, (most - least) / max(most, 1e-4));
+    return mix(bark, vec3f(0.13, 0.095, 0.06), 0.75 * plain * smoothstep(0.035, 0.010, radius));
 }
 
 @fragment
