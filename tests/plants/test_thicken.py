@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from handmade import build_plant, straight
+from windswept.plants.air import AIR_DENSITY
 from windswept.plants.plant import Material
-from windswept.plants.thicken import AIR_DENSITY, PLATE_SHARE, WORKING_STRESS, WORKING_WIND, thicken
+from windswept.plants.thicken import PLATE_SHARE, WORKING_STRESS, WORKING_WIND, thicken
 
 
 def test_a_pole_with_leaves_at_its_end() -> None:

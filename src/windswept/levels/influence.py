@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from windswept.motion import Model
-from windswept.motion.drag import reconfiguration
 from windswept.motion.rods import Doubles
 from windswept.motion.sweeps import joint_motion, joint_torque
+from windswept.plants.air import reconfiguration
 
 REFERENCE_SPEED = 8.0
 """Wind speed whose leaf reconfiguration fixes the proportion of leaf to wood drag in the static shapes, m/s."""

@@ -10,9 +10,9 @@ from windswept.levels.cut_level import cut_level
 from windswept.levels.hierarchy import Hierarchy, way_errors
 from windswept.levels.mismatch import LOG_HIGH, mismatch_table
 from windswept.motion import Level, finest_level
-from windswept.motion.drag import reconfiguration
 from windswept.motion.level import GROUP_STEP
 from windswept.motion.rods import Doubles
+from windswept.plants.air import reconfiguration
 
 STATED_WIND = 12.0
 """Wind speed that the errors of a ladder are stated for, m/s."""

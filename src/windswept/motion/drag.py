@@ -14,13 +14,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from windswept.motion.rods import Doubles, leaf_fraction, link_length
-from windswept.plants.plant import Floats, Material, Plant
-
-AIR_DENSITY = 1.2
-"""kg/m^3, at 20 degrees Celsius and sea level."""
+from windswept.plants.air import AIR_DENSITY
+from windswept.plants.plant import Plant
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,9 +45,3 @@ def build_drag(plant: Plant) -> Drag:
     leaf_push = np.bincount(link, push, count)
     centre = np.bincount(link, push * leaf_fraction(plant), count) + 0.5 * wood
     return Drag(leaf, wood, centre / np.maximum(leaf_push + wood, 1e-30))
-
-
-def reconfiguration(material: Material, speed: NDArray[np.floating]) -> Floats:
-    """Factor on leaf drag at an air speed in m/s; of any shape."""
-    ratio = speed / material.reconfiguration_speed
-    return ((1.0 + ratio * ratio) ** (0.5 * material.reconfiguration)).astype(np.float32)

@@ -18,7 +18,6 @@ from typing import Any
 import numpy as np
 from numba import get_num_threads, get_thread_id, njit, prange
 
-from windswept.motion.drag import reconfiguration
 from windswept.motion.groups import air_of_group, swing_group
 from windswept.motion.lanes import FAST_MATH, WIDTH, at_least, clamped, load, settled, sqrt, store
 from windswept.motion.level import Level
@@ -54,6 +53,7 @@ from windswept.motion.rotation import (
     rotate_back,
 )
 from windswept.motion.state import State
+from windswept.plants.air import reconfiguration
 from windswept.plants.plant import Floats, Ints
 
 MAX_ANGLE = 1.5

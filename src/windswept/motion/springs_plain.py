@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from windswept.motion.drag import reconfiguration
 from windswept.motion.model import Model, drag_mobility, exact_step, tension_per_force
 from windswept.motion.rods import Doubles
 from windswept.motion.springs import MAX_ANGLE
+from windswept.plants.air import reconfiguration
 
 
 def pose_plain(model: Model, angles: Doubles) -> tuple[list[Rotation], Doubles]:

@@ -14,13 +14,13 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from windswept.plants.air import AIR_DENSITY, reconfiguration
 from windswept.plants.plant import Floats, Ints, Plant
 
 WORKING_WIND = 10.0
 """Wind speed at which the stress is reckoned, m/s."""
 WORKING_STRESS = 1.5e7
 """Bending stress at the surface in that wind, Pa: about a third of what green hardwood bears."""
-AIR_DENSITY = 1.2
 PLATE_SHARE = 1.0 / 3.0
 """Drag of leaves that face every way over that of leaves that all face the wind."""
 
@@ -28,7 +28,7 @@ PLATE_SHARE = 1.0 / 3.0
 def thicken(plant: Plant) -> Plant:
     """The same plant with radii that carry its leaves; only ``link_radius_base`` and ``link_radius_tip`` change."""
     material = plant.material
-    folded = (1.0 + (WORKING_WIND / material.reconfiguration_speed) ** 2) ** (0.5 * material.reconfiguration)
+    folded = reconfiguration(material, np.array([WORKING_WIND]))[0]
     pressure = 0.5 * AIR_DENSITY * WORKING_WIND**2
     push = pressure * material.leaf_drag * PLATE_SHARE * folded * plant.leaf_area.astype(np.float64)
     force = np.bincount(plant.leaf_link, push, plant.link_count)
