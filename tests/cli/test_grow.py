@@ -68,7 +68,7 @@ def test_a_scan_in_leaf_and_bare(capsys, tmp_path) -> None:
     ("arguments", "said"),
     [
         (["hazel", "-o", "plant.png"], "plant.png: expected a file that ends in one of .npz, .toml, .obj"),
-        (["hazel", "-o", "none/plant.npz"], "none/plant.npz: expected a place that can be written to"),
+        (["hazel", "-o", "none/plant.npz"], "none/plant.npz = 'none': expected a folder that exists"),
         (["hazle"], "hazle: expected a built-in species or grammar, or a file: did you mean hazel?"),
         (["none.xml"], "none.xml: expected a file that exists"),
         (["hazel", "--seed", "2147483648"], "Invalid value for '--seed': 2147483648 is not in the range"),

@@ -52,6 +52,6 @@ def test_same_bytes_twice_and_nothing_left_behind(tmp_path) -> None:
     for name in ("one.obj", "two.obj"):
         export_obj(grow("wheat"), tmp_path / name)
     assert (tmp_path / "one.obj").read_bytes() == (tmp_path / "two.obj").read_bytes()
-    with pytest.raises(InputError, match="a place that can be written to"):
+    with pytest.raises(InputError, match="a folder that exists"):
         export_obj(grow("wheat"), tmp_path / "none" / "a.obj")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["one.obj", "two.obj"]

@@ -45,7 +45,7 @@ def test_joint_scale_is_kept(plant, tmp_path) -> None:
 
 
 def test_a_place_that_cannot_be_written(plant, tmp_path) -> None:
-    with pytest.raises(InputError, match="a place that can be written to"):
+    with pytest.raises(InputError, match="a folder that exists"):
         save_plant(plant, tmp_path / "none" / "plant.npz")
 
 

@@ -19,7 +19,7 @@ def command(as_json: bool, sheet: str | None) -> None:
     Example: windswept species --sheet species.png
     """
     if sheet is not None:
-        from windswept.render.files import check_place
+        from windswept.forms.files import check_place
         from windswept.studies.species_sheet import draw_sheet
 
         check_place(Path(sheet), (".png",))

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import os
-from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from windswept.errors import InputError
-from windswept.forms.read_text import shown_path
+from windswept.forms.files import written_whole
 from windswept.geometry.bark import bark_surface
 from windswept.geometry.curves import build_geometry
 from windswept.geometry.geometry import Geometry, PosedCurves
@@ -35,17 +32,8 @@ def export_obj(plant: Plant, path: Path) -> None:
     Raises:
         InputError: the file cannot be written.
     """
-    unfinished = path.with_name(f".{path.name}.unfinished")
-    try:
-        with unfinished.open("w", encoding="ascii") as stream:
-            _write(plant, stream)
-        os.replace(unfinished, path)
-    except OSError as error:
-        with suppress(OSError):
-            unfinished.unlink()
-        raise InputError(
-            shown_path(path), "", None, f"a place that can be written to ({error.strerror})"
-        ) from None
+    with written_whole(path) as unfinished, unfinished.open("w", encoding="ascii") as stream:
+        _write(plant, stream)
 
 
 def _write(plant: Plant, stream: IO[str]) -> None:

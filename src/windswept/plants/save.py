@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import zipfile
-from contextlib import suppress
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
@@ -15,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windswept.errors import InputError
+from windswept.forms.files import written_whole
 from windswept.forms.read_text import read_bytes, shown_path
 from windswept.plants.plant import Look, Material, Plant
 from windswept.plants.validate import validate
@@ -47,16 +46,8 @@ def save_plant(plant: Plant, path: Path) -> None:
     arrays = {name: getattr(plant, name) for name in _ARRAYS}
     arrays |= {name: getattr(plant, name) for name in _OPTIONAL if getattr(plant, name) is not None}
     arrays[_HEAD] = np.frombuffer(json.dumps(head).encode(), np.uint8)
-    unfinished = path.with_name(f".{path.name}.unfinished.npz")
-    try:
+    with written_whole(path) as unfinished:
         np.savez_compressed(unfinished, **arrays)
-        os.replace(unfinished, path)
-    except OSError as error:
-        with suppress(OSError):
-            unfinished.unlink()
-        raise InputError(
-            shown_path(path), "", None, f"a place that can be written to ({error.strerror})"
-        ) from None
 
 
 def load_plant(path: Path) -> Plant:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from windswept.errors import InputError
-from windswept.forms.read_text import shown_path
+from windswept.forms.files import written_whole
 from windswept.plants.species_form import Species
 
 
@@ -19,14 +17,8 @@ def write_species(species: Species, path: Path) -> None:
     Raises:
         InputError: the file cannot be written.
     """
-    unfinished = path.with_name(f".{path.name}.unfinished")
-    try:
+    with written_whole(path) as unfinished:
         unfinished.write_text(species_toml(species), encoding="utf-8")
-        os.replace(unfinished, path)
-    except OSError as error:
-        raise InputError(
-            shown_path(path), "", None, f"a place that can be written to ({error.strerror})"
-        ) from None
 
 
 def species_toml(species: Species) -> str:

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from windswept.forms.files import check_place
 from windswept.geometry.detail import DetailRules
 from windswept.gpu.frame import Frame
-from windswept.render.files import check_place
 from windswept.render.offscreen import render_picture
 from windswept.render.staging import frame_now, stage
 from windswept.render.video import VIDEO_ENDINGS, render_video

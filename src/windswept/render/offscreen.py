@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windswept.errors import InputError
+from windswept.forms.files import written_whole
 from windswept.gpu.frame import Frame
 from windswept.gpu.renderer import Renderer
-from windswept.render.files import written_whole
 
 
 def render_picture(renderer: Renderer, frame: Frame, path: Path) -> None:
