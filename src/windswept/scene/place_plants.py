@@ -9,8 +9,9 @@ import numpy as np
 
 from windswept.errors import BudgetError, InputError
 from windswept.scene.area import Area, ellipse, rectangle
-from windswept.scene.form import AreaForm, PlantForm, SceneForm, StandForm
+from windswept.scene.form import SceneForm
 from windswept.scene.plant_sources import Nursery, find_source
+from windswept.scene.planting_form import AreaForm, PlantForm, StandForm
 from windswept.scene.scatter import Ground, Sort, scatter, share_out
 from windswept.scene.scene import Placements, PlantKind
 from windswept.scene.terrain import Terrain
