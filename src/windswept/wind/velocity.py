@@ -117,11 +117,21 @@ def _add_up_alone(points, height, profile, mean, waves, gusts, time, out):  # ty
 
 @njit(cache=True, fastmath=True)
 def _add_up_block(block, points, height, profile, mean, waves, gusts, time, out):  # type: ignore[no-untyped-def]
-    """One source after another, points innermost."""
     first = block * BLOCK
     size = min(BLOCK, len(points) - first)
     x = points[first : first + size, 0].copy()
     y = points[first : first + size, 1].copy()
+    u, v = air_at_reference(x, y, mean, waves, gusts, time)
+    _scale_with_height(profile, height[first : first + size], u, v, out[first : first + size])
+
+
+@njit(cache=True, fastmath=True)
+def air_at_reference(x, y, mean, waves, gusts, time):  # type: ignore[no-untyped-def]
+    """Horizontal velocity of a block of points at the profile's reference height, for kernels of other rooms too.
+
+    One source after another, points innermost; ``waves`` is that of ``wave_rows``, ``gusts`` ``Wind.gust_rows``.
+    """
+    size = len(x)
     u = np.full(size, np.float32(mean[0]), dtype=np.float32)
     v = np.full(size, np.float32(mean[1]), dtype=np.float32)
     base = np.empty(size, dtype=np.float32)
@@ -130,7 +140,7 @@ def _add_up_block(block, points, height, profile, mean, waves, gusts, time, out)
         _add_wave(waves[i], x, y, base, raised, u, v)
     for i in range(len(gusts)):
         _add_gust(gusts[i], time, x, y, u, v)
-    _scale_with_height(profile, height[first : first + size], u, v, out[first : first + size])
+    return u, v
 
 
 @njit(cache=True, fastmath=True)
