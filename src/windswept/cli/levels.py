@@ -12,8 +12,8 @@ import numpy as np
 from windswept.cli.numbers import SEED, FiniteRange
 from windswept.cli.progress import status_line
 from windswept.levels import Eye, Ladder, build_ladder, measure, simplify, with_measured_errors
-from windswept.levels.ladder import STATED_WIND
 from windswept.levels.measure import Measured
+from windswept.levels.static_shapes import STATED_WIND
 from windswept.motion import build_model
 from windswept.plants.sources import grow_source
 from windswept.studies.level_costs import levels_bytes, nanoseconds_per_step, plant_bytes

@@ -3,32 +3,44 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 
 from windswept.levels.hierarchy import Hierarchy
-from windswept.motion import Level, State
+from windswept.motion import Level, Model, State
+from windswept.motion.rods import Doubles
+from windswept.motion.rotation import from_rotation_vector, multiply, rotate, rotate_back
+from windswept.motion.shapes import shaped
 from windswept.plants.plant import Floats
 
 REGULAR = 1e-6
 """Relative weight that keeps a group's pressure determined where its joints hardly feel one direction."""
+MOST_ROUNDS = 12
+"""Of Gauss and Newton's method for a group's pressure; where shapes are nearly linear, three are enough."""
+MOMENT = 1e-3
+"""Time over which the pressure's rate is followed to find the joints' velocities, s."""
 
 
-def joint_motion_of(level: Level, state: State, placement: int) -> tuple[Floats, Floats]:
+def joint_motion_of(model: Model, level: Level, state: State, placement: int) -> tuple[Floats, Floats]:
     """(L, 2) angles and (L, 2) velocities of all joints of one placement, whatever moves them.
 
     Args:
+        model: the plant.
         level: that the placement is simulated at.
         state: of that level.
         placement: index in that state.
     """
-    own = level.listens >= 0
-    angles = np.empty((len(level.listens), 2), np.float32)
-    velocities = np.empty_like(angles)
-    angles[own] = state.angles(placement)[level.listens[own]]
-    velocities[own] = state.velocities(placement)[level.listens[own]]
-    pressures = state.pressures(placement)[-1 - level.listens[~own]]
-    angles[~own] = np.einsum("lij,lj->li", level.influence[~own], pressures[:, 0])
-    velocities[~own] = np.einsum("lij,lj->li", level.influence[~own], pressures[:, 1])
-    return angles, velocities
+    listens = level.listens
+    motion = np.zeros((model.link_count, 4), np.float64)
+    own = listens >= 0
+    motion[own, :2] = state.angles(placement)[listens[own]]
+    motion[own, 2:] = state.velocities(placement)[listens[own]]
+    pressures = state.pressures(placement).reshape(-1, 6).astype(np.float64)
+    skeleton = model.skeleton
+    _walk(
+        skeleton.parent, skeleton.axes, listens, level.group_carrier, level.shapes, level.shape_limit,
+        pressures, motion,
+    )  # fmt: skip
+    return motion[:, :2].astype(np.float32), motion[:, 2:].astype(np.float32)
 
 
 def carry_over(
@@ -52,21 +64,83 @@ def carry_over(
     joints[:, 1::2] = velocities[level.link]
     if level.group_count == 0 or not level.group_constants.any():
         return joints, np.zeros((level.group_count, 6), np.float32)
-    own = level.listens < 0
-    group = -1 - level.listens[own]
-    shape = level.influence[own].astype(np.float64)
-    stiff = shape / hierarchy.model.rods.compliance[own][:, :, None]
-    normal = _sum_by(group, np.einsum("lki,lkj->lij", stiff, shape), level.group_count)
-    normal += REGULAR * np.trace(normal, axis1=1, axis2=2)[:, None, None] * np.eye(3) + 1e-30 * np.eye(3)
-    pressure = np.empty((level.group_count, 6))
-    for column, motion in enumerate((angles, velocities)):
-        right = _sum_by(group, np.einsum("lki,lk->li", stiff, motion[own]), level.group_count)
-        pressure[:, 3 * column : 3 * column + 3] = np.linalg.solve(normal, right[..., None])[..., 0]
+    skeleton = hierarchy.model.skeleton
+    listens = level.listens
+    motion = np.concatenate([angles, velocities], axis=1).astype(np.float64)
+    rotation = _walk(
+        skeleton.parent, skeleton.axes, np.zeros_like(listens), level.group_carrier, level.shapes,
+        level.shape_limit, np.zeros((0, 6)), motion,
+    )  # fmt: skip
+    pressure = np.zeros((level.group_count, 6))
+    for _ in range(MOST_ROUNDS):
+        normal, right = _normal_equations(
+            skeleton.parent, listens, level.group_carrier, level.shapes, level.shape_limit,
+            1.0 / hierarchy.model.rods.compliance, rotation, motion, pressure,
+        )  # fmt: skip
+        normal += REGULAR * np.trace(normal, axis1=1, axis2=2)[:, None, None] * np.eye(3) + 1e-30 * np.eye(3)
+        change = np.linalg.solve(normal, right.transpose(0, 2, 1))
+        pressure[:, :3] += change[..., 0]
+        pressure[:, 3:] = change[..., 1]
+        if np.abs(change[..., 0]).max() < 1e-5 * level.shape_limit:
+            break
     return joints, pressure.astype(np.float32)
 
 
-def _sum_by(group: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
-    """Sum of values over each group."""
-    total = np.zeros((count, *values.shape[1:]))
-    np.add.at(total, group, values)
-    return total
+@njit(cache=True)
+def _walk(  # type: ignore[no-untyped-def]
+    parent, axes, listens, carrier, shapes, limit, pressure, motion
+):
+    """Root to tip: fills in the motion of joints that listen to groups; gives (L + 1, 4) rotations, ground first."""
+    count = len(parent)
+    rotation = np.zeros((count + 1, 4))
+    rotation[0, 3] = 1.0
+    for link in range(count):
+        q_parent = _quaternion(rotation, parent[link] + 1)
+        if listens[link] < 0:
+            group = -1 - listens[link]
+            q = _quaternion(rotation, carrier[group] + 1)
+            u = (pressure[group, 0], pressure[group, 1], pressure[group, 2])
+            rate = (pressure[group, 3], pressure[group, 4], pressure[group, 5])
+            later = (u[0] + MOMENT * rate[0], u[1] + MOMENT * rate[1], u[2] + MOMENT * rate[2])
+            now = shaped(shapes[link], rotate_back(q_parent, rotate(q, u)), limit)
+            then = shaped(shapes[link], rotate_back(q_parent, rotate(q, later)), limit)
+            motion[link, 0], motion[link, 1] = now
+            motion[link, 2], motion[link, 3] = (then[0] - now[0]) / MOMENT, (then[1] - now[1]) / MOMENT
+        turn = motion[link, 0] * axes[link, 0] + motion[link, 1] * axes[link, 1]
+        q = multiply(q_parent, from_rotation_vector((turn[0], turn[1], turn[2])))
+        for k in range(4):
+            rotation[link + 1, k] = q[k]
+    return rotation
+
+
+@njit(cache=True)
+def _normal_equations(  # type: ignore[no-untyped-def]
+    parent, listens, carrier, shapes, limit, stiffness, rotation, motion, pressure
+):
+    """(G, 3, 3) and (G, 2, 3): what the joints of each group ask of a change of its pressure, and of its rate."""
+    normal, right = np.zeros((len(pressure), 3, 3)), np.zeros((len(pressure), 2, 3))
+    slope = np.empty((2, 3))
+    for link in range(len(parent)):
+        if listens[link] >= 0:
+            continue
+        group = -1 - listens[link]
+        q_parent, q = _quaternion(rotation, parent[link] + 1), _quaternion(rotation, carrier[group] + 1)
+        u = (pressure[group, 0], pressure[group, 1], pressure[group, 2])
+        now = shaped(shapes[link], rotate_back(q_parent, rotate(q, u)), limit)
+        step = 1e-4 * limit
+        for axis in range(3):
+            moved = (u[0] + step * (axis == 0), u[1] + step * (axis == 1), u[2] + step * (axis == 2))
+            then = shaped(shapes[link], rotate_back(q_parent, rotate(q, moved)), limit)
+            slope[0, axis], slope[1, axis] = (then[0] - now[0]) / step, (then[1] - now[1]) / step
+        for k in range(2):
+            weighted = stiffness[link, k] * slope[k]
+            for axis in range(3):
+                normal[group, axis] += weighted[axis] * slope[k]
+            right[group, 0] += weighted * (motion[link, k] - now[k])
+            right[group, 1] += weighted * motion[link, k + 2]
+    return normal, right
+
+
+@njit(cache=True)
+def _quaternion(rotation: Doubles, row: int) -> tuple[float, float, float, float]:
+    return rotation[row, 0], rotation[row, 1], rotation[row, 2], rotation[row, 3]

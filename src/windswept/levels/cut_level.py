@@ -78,9 +78,6 @@ def compact_level(hierarchy: Hierarchy, links: Ints, nodes: Ints) -> Level:
     carrier = place[hierarchy.hangs_on[nodes]]
     nodes = nodes[np.argsort(carrier, kind="stable")]
     carrier = np.sort(carrier)
-    listens = place[:-1].copy()
-    for group, node in enumerate(nodes):
-        listens[hierarchy.first[node] : hierarchy.stop[node]] = -1 - group
     constants, group_probe = group_constants(hierarchy, nodes)
     probes = np.concatenate([model.link_probe[links], group_probe])
     used, probe = np.unique(probes, return_inverse=True)
@@ -97,8 +94,10 @@ def compact_level(hierarchy: Hierarchy, links: Ints, nodes: Ints) -> Level:
         group_constants=constants,
         group_frequency=hierarchy.frequency[nodes],
         group_probe=probe[len(links) :].astype(np.int32),
-        listens=listens,
-        influence=hierarchy.shapes,
+        group_first=hierarchy.first[nodes],
+        group_stop=hierarchy.stop[nodes],
+        shapes=hierarchy.shapes,
+        shape_limit=hierarchy.pressure,
     )
 
 

@@ -19,6 +19,7 @@ from numba import njit
 
 from windswept.levels.influence import Influence, static_influence
 from windswept.levels.mismatch import look_up, mismatch_table
+from windswept.levels.static_shapes import stated_pressure, static_shapes
 from windswept.motion import Model
 from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats, Ints
@@ -31,7 +32,9 @@ class Hierarchy:
     model: Model
     influence: Influence
     shapes: Floats
-    """(L, 2, 3) ``influence.angle`` in single precision: one array that all levels share."""
+    """(L, 2, 9) static shapes of the joints: one array that all levels share."""
+    pressure: float
+    """The wind's pressure at the stated speed, up to which the shapes hold, (m/s)^2."""
     root: int
     """Node that stands for the whole plant."""
     first: Ints
@@ -68,8 +71,20 @@ def simplify(model: Model) -> Hierarchy:
         skeleton.parent, first, stop, np.log(link_frequency), np.log(frequency), lever, table
     )
     _raise_to_children(child, root, error)
-    shapes = influence.angle.astype(np.float32)
-    return Hierarchy(model, influence, shapes, root, first, stop, hangs_on, child, lever, frequency, error)
+    return Hierarchy(
+        model=model,
+        influence=influence,
+        shapes=static_shapes(model, influence),
+        pressure=stated_pressure(model, influence),
+        root=root,
+        first=first,
+        stop=stop,
+        hangs_on=hangs_on,
+        child=child,
+        lever=lever,
+        frequency=frequency,
+        error=error,
+    )
 
 
 def node_frequency(

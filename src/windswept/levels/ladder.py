@@ -12,10 +12,7 @@ from windswept.levels.mismatch import LOG_HIGH, mismatch_table
 from windswept.motion import Level, finest_level
 from windswept.motion.level import GROUP_STEP
 from windswept.motion.rods import Doubles
-from windswept.plants.air import reconfiguration
 
-STATED_WIND = 12.0
-"""Wind speed that the errors of a ladder are stated for, m/s."""
 STEP = 0.55
 """Each level has at most this many times the oscillators of the one before."""
 TYPICAL_TO_95 = 2.0
@@ -60,7 +57,7 @@ def build_ladder(hierarchy: Hierarchy) -> Ladder:
     sway = np.linalg.norm(hierarchy.influence.tip, ord=2, axis=(1, 2))
     still = TYPICAL_TO_95 * float(np.sqrt(np.mean(sway**2)))
     levels += [_without_inertia(levels[-1]), _still(levels[-1])]
-    return Ladder(hierarchy, tuple(levels), stated_pressure(hierarchy) * np.array([*errors, still]))
+    return Ladder(hierarchy, tuple(levels), hierarchy.pressure * np.array([*errors, still]))
 
 
 def estimated_error(hierarchy: Hierarchy, level: Level, group_frequency: Doubles) -> float:
@@ -83,12 +80,6 @@ def estimated_error(hierarchy: Hierarchy, level: Level, group_frequency: Doubles
     )
     tips = np.append(skeleton.stem_first_link[1:], model.link_count) - 1
     return TYPICAL_TO_95 * float(np.sqrt(np.mean(way[tips] ** 2)))
-
-
-def stated_pressure(hierarchy: Hierarchy) -> float:
-    """The wind's pressure at the stated speed in the unit of the static shapes, (m/s)^2."""
-    folded = float(reconfiguration(hierarchy.model.material, np.array([STATED_WIND]))[0])
-    return STATED_WIND**2 * max(folded / hierarchy.influence.folded, 0.5)
 
 
 def _tolerances(hierarchy: Hierarchy) -> Doubles:

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from windswept.levels.ladder import STATED_WIND, Ladder
+from windswept.levels.ladder import Ladder
+from windswept.levels.static_shapes import STATED_WIND
 from windswept.motion import Level, Model, State, Stepper, pose_links, rest_state
 from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats, Ints

@@ -94,14 +94,13 @@ def printed_level(hierarchy: Hierarchy, merges: PrintedMerges, tolerance: float)
     constants[:, SWAY : SWAY + 9] = sway.reshape(-1, 9)
     constants[:, GROUP_MOBILITY] = level.time_step * frequency**2 * np.linalg.norm(sway, ord=2, axis=(1, 2))
     constants[:, GROUP_STEP : GROUP_STEP + 4] = exact_step(frequency, damping, level.time_step)
-    influence = np.zeros_like(level.influence)
+    shapes = np.zeros_like(level.shapes)
     # Only the joints at which the group's members hang on the carrier turn.
-    group = -1 - level.listens
-    own = (level.listens < 0) & (
-        skeleton.parent == np.where(level.listens < 0, carrier[np.maximum(group, 0)], -2)
-    )
-    influence[own] = np.einsum("lki,lij->lkj", skeleton.axes[own], rotation[group[own]])
-    return replace(level, group_constants=constants, group_frequency=frequency, influence=influence)
+    listens = level.listens
+    group = -1 - listens
+    own = (listens < 0) & (skeleton.parent == np.where(listens < 0, carrier[np.maximum(group, 0)], -2))
+    shapes[own, :, :3] = np.einsum("lki,lij->lkj", skeleton.axes[own], rotation[group[own]])
+    return replace(level, group_constants=constants, group_frequency=frequency, shapes=shapes)
 
 
 def _cross_matrix(vectors: Doubles) -> Doubles:

@@ -8,6 +8,7 @@ import numpy as np
 
 from windswept.motion.model import Model
 from windswept.motion.rods import Doubles
+from windswept.motion.shapes import SHAPE_COUNT
 from windswept.plants.plant import Floats, Ints, Material
 
 GROUP_CONSTANT_COUNT = 40
@@ -22,7 +23,7 @@ class Level:
 
     A *group* is a set of branches on one link (or on the ground) that share one oscillator: a pressure vector u(t)
     in (m/s)^2, in the frame of the link that carries them, that follows the wind's pressure with the group's
-    frequency and damping. Every joint of the group turns by its own static influence of u.
+    frequency and damping. Every joint of the group turns by its own static shape under u; see shapes.py.
     """
 
     material: Material
@@ -50,10 +51,14 @@ class Level:
     """(G,) angular frequency of each group's oscillator, rad/s."""
     group_probe: Ints
     """(G,) wind probe of each group."""
-    listens: Ints
-    """(L,) what turns each joint of the plant: active link a >= 0, or group g as -1 - g."""
-    influence: Floats
-    """(L, 2, 3) angle about each joint axis per unit of its group's u, rad s^2/m^2."""
+    group_first: Ints
+    """(G,) first link of the plant that each group moves."""
+    group_stop: Ints
+    """(G,) end of the group's range of links."""
+    shapes: Floats
+    """(L, 2, 9) what each joint's angles are under its group's u, see shapes.py; all levels of a plant share it."""
+    shape_limit: float
+    """Pressure up to which the shapes hold, (m/s)^2; beyond it they go on in proportion."""
 
     @property
     def link_count(self) -> int:
@@ -64,6 +69,22 @@ class Level:
     def group_count(self) -> int:
         """Number of groups, G."""
         return len(self.group_probe)
+
+    @property
+    def listens(self) -> Ints:
+        """(L,) what turns each joint of the plant: active link a >= 0, or group g as -1 - g."""
+        what = np.empty(len(self.shapes), np.int32)
+        what[self.link] = np.arange(self.link_count)
+        sizes = self.group_stop - self.group_first
+        within = np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+        groups = np.arange(self.group_count)
+        what[np.repeat(self.group_first, sizes) + within] = np.repeat(-1 - groups, sizes)
+        return what
+
+    @property
+    def group_carrier(self) -> Ints:
+        """(G,) link of the plant that carries each group, -1 for the ground."""
+        return np.repeat(np.append(-1, self.link), np.diff(self.group_start)).astype(np.int32)
 
 
 def finest_level(model: Model) -> Level:
@@ -83,6 +104,8 @@ def finest_level(model: Model) -> Level:
         group_constants=np.zeros((0, GROUP_CONSTANT_COUNT), np.float32),
         group_frequency=np.zeros(0),
         group_probe=np.zeros(0, np.int32),
-        listens=links,
-        influence=np.zeros((count, 2, 3), np.float32),
+        group_first=np.zeros(0, np.int32),
+        group_stop=np.zeros(0, np.int32),
+        shapes=np.zeros((count, 2, SHAPE_COUNT), np.float32),
+        shape_limit=1.0,
     )

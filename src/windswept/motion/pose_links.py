@@ -9,7 +9,8 @@ from windswept.motion.lanes import FAST_MATH, WIDTH, load, store
 from windswept.motion.level import Level
 from windswept.motion.model import ATTACH, AXIS_1, AXIS_2, OFFSET, VECTOR, Model
 from windswept.motion.registers import constant3, load3, load4, store3
-from windswept.motion.rotation import add_scaled, from_rotation_vector, multiply, rotate
+from windswept.motion.rotation import add_scaled, from_rotation_vector, multiply, rotate, rotate_back
+from windswept.motion.shapes import shaped
 from windswept.motion.state import State
 from windswept.plants.pose import Pose
 
@@ -35,7 +36,9 @@ def pose_links(model: Model, level: Level, state: State, ahead: float = 0.0) -> 
         model.constants,
         model.skeleton.parent,
         level.listens,
-        level.influence,
+        level.group_carrier,
+        level.shapes,
+        np.float32(level.shape_limit),
         state.joints.reshape(len(state.joints), -1),
         state.groups.reshape(len(state.groups), -1),
         np.float32(ahead),
@@ -50,25 +53,28 @@ def _ahead(flat, i, rate, ahead):  # type: ignore[no-untyped-def]
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def _angles(listens, influence, joints, groups, ahead):  # type: ignore[no-untyped-def]
-    """Both angles of a joint: its own, or its static influence of its group's pressure."""
-    if listens >= 0:
-        at = np.uintp(listens) * _W * np.uintp(4)
-        return _ahead(joints, at, _W, ahead), _ahead(joints, at + _W + _W, _W, ahead)
-    at, rate = np.uintp(-1 - listens) * _W * np.uintp(6), _W * np.uintp(3)
+def _own_angles(joints, link, ahead):  # type: ignore[no-untyped-def]
+    """Both angles of a joint that is stepped itself."""
+    at = np.uintp(link) * _W * np.uintp(4)
+    return _ahead(joints, at, _W, ahead), _ahead(joints, at + _W + _W, _W, ahead)
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def _shared_angles(groups, group, ahead, q_carrier, q_parent, shape, limit):  # type: ignore[no-untyped-def]
+    """Both angles of a joint that listens to a group: its shape under the group's pressure as its parent feels it."""
+    at, rate = np.uintp(group) * _W * np.uintp(6), _W * np.uintp(3)
     u = (
         _ahead(groups, at, rate, ahead),
         _ahead(groups, at + _W, rate, ahead),
         _ahead(groups, at + _W + _W, rate, ahead),
     )
-    return (
-        u[0] * influence[0, 0] + u[1] * influence[0, 1] + u[2] * influence[0, 2],
-        u[0] * influence[1, 0] + u[1] * influence[1, 1] + u[2] * influence[1, 2],
-    )
+    return shaped(shape, rotate_back(q_parent, rotate(q_carrier, u)), limit)
 
 
 @njit(fastmath=FAST_MATH, parallel=True, cache=True)
-def _pose_tiles(c, parent, listens, influence, joints, groups, ahead, pose):  # type: ignore[no-untyped-def]
+def _pose_tiles(  # type: ignore[no-untyped-def]
+    c, parent, listens, carrier, shapes, limit, joints, groups, ahead, pose
+):
     tiles, count = joints.shape[0], len(parent)
     for tile in prange(tiles):
         a = np.zeros((count + 1) * 10 * WIDTH, np.float32)
@@ -79,13 +85,21 @@ def _pose_tiles(c, parent, listens, influence, joints, groups, ahead, pose):  # 
             above = np.uintp(parent[i] + 1) * _RECORD
             here = (link + np.uintp(1)) * _RECORD
             first, second = constant3(c, link, AXIS_1), constant3(c, link, AXIS_2)
-            angle_1, angle_2 = _angles(listens[i], influence[i], joints[tile], groups[tile], ahead)
+            q_parent = load4(a, above + _W * np.uintp(3))
+            if listens[i] >= 0:
+                angle_1, angle_2 = _own_angles(joints[tile], listens[i], ahead)
+            else:
+                group = -1 - listens[i]
+                q_carrier = load4(a, np.uintp(carrier[group] + 1) * _RECORD + _W * np.uintp(3))
+                angle_1, angle_2 = _shared_angles(
+                    groups[tile], group, ahead, q_carrier, q_parent, shapes[i], limit
+                )
             turn = (
                 angle_1 * first[0] + angle_2 * second[0],
                 angle_1 * first[1] + angle_2 * second[1],
                 angle_1 * first[2] + angle_2 * second[2],
             )
-            q = multiply(load4(a, above + _W * np.uintp(3)), from_rotation_vector(turn))
+            q = multiply(q_parent, from_rotation_vector(turn))
             x = add_scaled(load3(a, above), load3(a, above + _W * np.uintp(7)), c[link, ATTACH])
             x = add_scaled(x, constant3(c, link, OFFSET), _F(1.0))
             store3(a, here, x)

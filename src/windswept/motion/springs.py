@@ -52,12 +52,11 @@ from windswept.motion.rotation import (
     rotate,
     rotate_back,
 )
+from windswept.motion.shapes import MAX_ANGLE
 from windswept.motion.state import State
 from windswept.plants.air import reconfiguration
 from windswept.plants.plant import Floats, Ints
 
-MAX_ANGLE = 1.5
-"""No joint is pulled further than this, rad: wood that is bent so far at one joint has long left the linear law."""
 REST_THRESHOLD = 1e-9
 """Angles (rad) and velocities (rad/s) below this are put to rest: dying motion must not end in denormals."""
 

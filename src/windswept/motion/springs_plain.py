@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from windswept.motion.model import Model, drag_mobility, exact_step, tension_per_force
 from windswept.motion.rods import Doubles
-from windswept.motion.springs import MAX_ANGLE
+from windswept.motion.shapes import MAX_ANGLE
 from windswept.plants.air import reconfiguration
 
 

@@ -110,7 +110,9 @@ class MovingKind:
         assert self.ladder is not None
         source = int(self.at[placement])
         leaving = self.sets[source]
-        angles, velocities = joint_motion_of(leaving.level, leaving.state, leaving.slot(placement))
+        angles, velocities = joint_motion_of(
+            self.model, leaving.level, leaving.state, leaving.slot(placement)
+        )
         joints, groups = carry_over(self.ladder.hierarchy, angles, velocities, self.sets[target].level)
         self.sets[target].add(placement, joints, groups)
         self.at[placement] = target
@@ -155,7 +157,7 @@ class MovingKind:
             for weight, rung in ((1.0 - share, blend.source), (share, blend.target)):
                 level_set = self.sets[rung]
                 angles, velocities = joint_motion_of(
-                    level_set.level, level_set.state, level_set.slot(placement)
+                    self.model, level_set.level, level_set.state, level_set.slot(placement)
                 )
                 mixed.joints[tile, :, ::2, lane] += weight * (angles + ahead * velocities)
         return pose_links(self.model, finest, mixed)
