@@ -75,7 +75,7 @@ class PlantDrawing:
         colours = [*shadows, light_layout]
         picture = (colour_format, samples)
         self._stems = [
-            _Mesh(
+            BatchedMesh(
                 device,
                 grid_triangles(rings, sides),
                 (rings + 1) * (sides + 1),
@@ -93,7 +93,7 @@ class PlantDrawing:
             for (rings, sides), lit in zip(STEM_GRIDS, STEM_LIT, strict=True)
         ]
         self._stem_shadows = [
-            _Mesh(
+            BatchedMesh(
                 device,
                 grid_triangles(rings, sides),
                 (rings + 1) * (sides + 1),
@@ -108,11 +108,11 @@ class PlantDrawing:
         for mesh, lit in zip(meshes, LEAF_LIT, strict=True):
             count = mesh.vertices.shape[1]
             pipeline = colour_pipeline(device, colours, "leaves", *picture, {"VERTICES": count}, lit=lit)
-            self._leaves.append(_Mesh(device, mesh.triangles, count, LEAF_BATCH, pipeline))
+            self._leaves.append(BatchedMesh(device, mesh.triangles, count, LEAF_BATCH, pipeline))
         kite = meshes[-1]
         count = kite.vertices.shape[1]
         pipeline = shadow_pipeline(device, shadows, "leaves", {"VERTICES": count})
-        self._leaf_shadow = _Mesh(device, kite.triangles, count, LEAF_BATCH, pipeline)
+        self._leaf_shadow = BatchedMesh(device, kite.triangles, count, LEAF_BATCH, pipeline)
         self._batches = device.create_buffer(
             size=UNIFORM_STRIDE * 2 * (len(STEM_GRIDS) + len(LEAF_STATIONS)), usage=UNIFORM
         )
@@ -164,7 +164,7 @@ class PlantDrawing:
         return stems, leaves
 
 
-class _Mesh:
+class BatchedMesh:
     """Indices of one batch of equal meshes, and the pipeline they are drawn with."""
 
     def __init__(self, device: Any, triangles: Ints, vertices: int, batch: int, pipeline: Any) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 import wgpu
@@ -31,6 +32,29 @@ SAMPLES = 4
 SHADOW_REACH = (20.0, 120.0)
 """Least and greatest distance from the camera to which shadows are drawn, m; twice that of its target if between."""
 PICTURE_FORMAT = "rgba8unorm-srgb"
+
+
+@dataclass(frozen=True, slots=True)
+class Canvas:
+    """What pipelines have to fit that draw into a renderer's pictures."""
+
+    device: Any
+    frame_layout: Any
+    """Of bind group 0."""
+    light_layout: Any
+    """Of bind group 2."""
+    picture: tuple[str, int]
+    """Colour format and samples of a pixel."""
+
+
+class Drawing(Protocol):
+    """Something else that a renderer draws beside its plants."""
+
+    def draw_shadows(self, render_pass: Any) -> None:
+        """Record the draws into the shadow map; bind group 0 is set."""
+
+    def draw(self, render_pass: Any) -> None:
+        """Record the draws into the picture; bind groups 0 and 2 are set."""
 
 
 class Renderer:
@@ -77,6 +101,10 @@ class Renderer:
         self._plant_drawing = PlantDrawing(self._device, self.posing, *shared)
         self._backdrop = Backdrop(self._device, ground, *shared)
         self._colour_format = colour_format
+        self.canvas = Canvas(
+            self._device, self._frame_layout, self._lighting.layout, (colour_format, SAMPLES)
+        )
+        self.beside: list[Drawing] = []
         self.resize(size)
 
     def resize(self, size: tuple[int, int]) -> None:
@@ -147,6 +175,8 @@ class Renderer:
         )
         render_pass.set_bind_group(0, self._frame_group)
         self._plant_drawing.draw_shadows(render_pass, wanted)
+        for drawing in self.beside:
+            drawing.draw_shadows(render_pass)
         render_pass.end()
 
     def _encode_picture(self, encoder: Any, view: Any, wanted: DrawList) -> None:
@@ -170,6 +200,8 @@ class Renderer:
         render_pass.set_bind_group(0, self._frame_group)
         render_pass.set_bind_group(2, self._lighting.group)
         self._plant_drawing.draw(render_pass, wanted)
+        for drawing in self.beside:
+            drawing.draw(render_pass)
         self._backdrop.draw_near(render_pass)
         self._backdrop.draw_far(render_pass)
         render_pass.end()

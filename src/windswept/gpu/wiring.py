@@ -10,7 +10,9 @@ import wgpu
 
 SHADER_SETS = {
     "curves": ("types", "curves"),
-    "bark": ("types", "light", "bark"),
+    "bark": ("types", "light", "pieces", "bark"),
+    "bend": ("types", "bend_types", "bend_frame", "bend_air", "bend"),
+    "bend_bark": ("types", "light", "bend_types", "bend_frame", "bend_pieces", "bark"),
     "leaves": ("types", "light", "leaves"),
     "ground": ("types", "light", "meadow", "ground"),
     "grass": ("types", "light", "meadow", "grass"),

@@ -1,5 +1,6 @@
 // Stems: Skjermo's generalized de Casteljau surface in closed form; geometry/bark.py is the same in NumPy.
-// Set: types + light + bark. An instance is a batch of BATCH pieces, each a grid of RINGS by SIDES faces.
+// Set: types + light + pieces or bend_pieces, which say what posed_piece is, + bark. An instance is a batch of BATCH
+// pieces, each a grid of RINGS by SIDES faces.
 
 override RINGS: u32 = 4u;
 override SIDES: u32 = 8u;
@@ -7,7 +8,6 @@ const BATCH = 32u;
 const TAU = 6.283185307;
 
 @group(1) @binding(0) var<storage, read> stems: array<Stem>;
-@group(1) @binding(1) var<storage, read> posed_pieces: array<PosedPiece>;
 @group(1) @binding(2) var<uniform> looks: array<Look, 64>;
 @group(1) @binding(3) var<uniform> batch: Batch;
 
@@ -116,7 +116,7 @@ fn posed_vertex(vertex: u32, instance: u32) -> Bark {
     let at = place(vertex, instance);
     var out: Bark;
     if at.item >= batch.items.y { return out; }
-    let piece = posed_pieces[batch.items.x + at.item];
+    let piece = posed_piece(batch.items.x + at.item);
     let stem = stems[piece.rows.x];
     let point = surface(piece, stem, at.t, at.turn * TAU);
     let span = mix(piece.p0.w, piece.p1.w, at.t);
@@ -145,7 +145,7 @@ fn vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance:
 fn shadow(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4f {
     let at = place(vertex, instance);
     if at.item >= batch.items.y { return vec4f(0.0); }
-    let piece = posed_pieces[batch.items.x + at.item];
+    let piece = posed_piece(batch.items.x + at.item);
     let point = surface(piece, stems[piece.rows.x], at.t, at.turn * TAU);
     return frame.sun_projection * vec4f(point.position, 1.0);
 }

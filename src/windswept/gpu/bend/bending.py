@@ -1,0 +1,134 @@
+"""The first pass: the wind bends every branch on the card. See ``shaders/bend.wgsl``."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windswept.gpu.bend import layouts
+from windswept.gpu.bend.branch_rows import bend_scale, branch_rows
+from windswept.gpu.bend.breeze import breeze
+from windswept.gpu.buffers import UNIFORM, UNIFORM_STRIDE, filled
+from windswept.gpu.wiring import (
+    COMPUTE,
+    DYNAMIC_UNIFORM,
+    READ,
+    WRITE,
+    bind,
+    buffers_layout,
+    compute_pipeline,
+)
+from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
+from windswept.motion.bend_branches import Branches, BranchPose
+from windswept.motion.bend_plain import WEIGHTS
+from windswept.wind.mean import Profile
+from windswept.wind.wind import Wind, calm
+
+WORKGROUP = 64
+ROW_OF_GROUPS = 32_768
+"""Workgroups along x, at most; every adapter takes as many."""
+
+
+class Bending:
+    """Holds branches at rest and bent on the card.
+
+    Args:
+        device: the card.
+        branches: what is bent.
+        rows: (R, 4) their ``rows`` as ``branch_look_rows`` gives them; None where nobody draws them.
+        weights: name of the shares of b that turn the second and the third leg, see ``WEIGHTS``.
+    """
+
+    def __init__(
+        self,
+        device: Any,
+        branches: Branches,
+        rows: NDArray[np.void] | None = None,
+        weights: str = "beam",
+    ) -> None:
+        self._device = device
+        self.branches = branches
+        self._rest = branch_rows(branches)
+        if rows is not None:
+            self._rest["rows"] = rows
+        self.rest = filled(device, self._rest)
+        still = np.zeros(branches.branch_count, layouts.BENT_BRANCH)
+        self._bent = [filled(device, still), filled(device, still)]
+        self._newest = 0
+        self._profile: Profile | None = None
+        self._breeze = device.create_buffer(size=layouts.BREEZE.itemsize, usage=UNIFORM)
+        self._passes = filled(device, _pass_rows(branches, weights), UNIFORM)
+        nothing = buffers_layout(device, COMPUTE)
+        layout = buffers_layout(device, COMPUTE, READ, READ, WRITE, UNIFORM_BINDING, DYNAMIC_UNIFORM)
+        self._nothing = bind(device, nothing)
+        self._lagged = compute_pipeline(device, [nothing, layout], "bend", "lagged")
+        self._ordered = compute_pipeline(device, [nothing, layout], "bend", "ordered")
+        now = {"buffer": self._passes, "offset": 0, "size": layouts.BEND_PASS.itemsize}
+        self._groups = [
+            bind(device, layout, self.rest, self._bent[1 - new], self._bent[new], self._breeze, now)
+            for new in (0, 1)
+        ]
+        self.step_ordered(calm(), 0.0)
+
+    @property
+    def bent(self) -> Any:
+        """Buffer of ``BENT_BRANCH`` rows as they are now."""
+        return self._bent[self._newest]
+
+    def step_lagged(self, wind: Wind, time: float) -> None:
+        """One pass over all branches, each on its parent of the step before; the two buffers swap.
+
+        Args:
+            wind: sampled at the tips of the branches at rest.
+            time: s.
+
+        Raises:
+            InputError: more waves or gusts blow at once than the card is given.
+        """
+        self._newest = 1 - self._newest
+        self._submit(self._lagged, [(0, self.branches.branch_count)], wind, time)
+
+    def step_ordered(self, wind: Wind, time: float) -> None:
+        """One dispatch a level, each branch on its parent as it is now. Arguments as ``step_lagged``."""
+        levels = np.diff(self.branches.level_start)
+        self._submit(self._ordered, list(enumerate(levels, start=1)), wind, time)
+
+    def pose(self) -> BranchPose:
+        """Read the branches back; waits until they are bent."""
+        data = np.frombuffer(self._device.queue.read_buffer(self.bent), np.float32)
+        rows = data.reshape(self.branches.branch_count, 4, 4)
+        return BranchPose(rows[:, :, :3].copy(), rows[:, :3, 3].copy())
+
+    def _submit(self, pipeline: Any, passes: list[tuple[int, int]], wind: Wind, time: float) -> None:
+        """Run passes, each a slot of ``_passes`` and its number of branches, one after the other."""
+        if wind.profile != self._profile:
+            self._rest["side"][:, 3] = bend_scale(self.branches, wind.profile)
+            self._device.queue.write_buffer(self.rest, 0, self._rest)
+            self._profile = wind.profile
+        self._device.queue.write_buffer(self._breeze, 0, breeze(wind, time))
+        encoder = self._device.create_command_encoder()
+        compute_pass = encoder.begin_compute_pass()
+        compute_pass.set_pipeline(pipeline)
+        compute_pass.set_bind_group(0, self._nothing)
+        for slot, count in passes:
+            groups = -(-int(count) // WORKGROUP)
+            compute_pass.set_bind_group(1, self._groups[self._newest], [slot * UNIFORM_STRIDE])
+            compute_pass.dispatch_workgroups(min(groups, ROW_OF_GROUPS), -(-groups // ROW_OF_GROUPS))
+        compute_pass.end()
+        self._device.queue.submit([encoder.finish()])
+
+
+def _pass_rows(branches: Branches, weights: str) -> NDArray[np.uint8]:
+    """(1 + D, UNIFORM_STRIDE) ``BEND_PASS`` of all branches at once and then of every level."""
+    ranges = [(0, branches.branch_count), *pairwise(branches.level_start.tolist())]
+    second, third = WEIGHTS[weights]
+    rows = np.zeros((len(ranges), UNIFORM_STRIDE), np.uint8)
+    for row, (first, end) in zip(rows, ranges, strict=True):
+        one = np.zeros(1, layouts.BEND_PASS)
+        one["rows"] = first, end, 0, 0
+        one["weights"] = second, third - second, 0.0, 0.0
+        row[: layouts.BEND_PASS.itemsize] = one.view(np.uint8)
+    return rows
