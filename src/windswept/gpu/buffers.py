@@ -9,6 +9,7 @@ import wgpu
 from numpy.typing import NDArray
 
 from windswept.errors import GraphicsError
+from windswept.gpu.failures import card_errors
 
 STORAGE = wgpu.BufferUsage.STORAGE | wgpu.BufferUsage.COPY_DST | wgpu.BufferUsage.COPY_SRC
 UNIFORM = wgpu.BufferUsage.UNIFORM | wgpu.BufferUsage.COPY_DST
@@ -21,6 +22,27 @@ def filled(device: Any, rows: NDArray[Any], usage: int = STORAGE) -> Any:
     if len(rows) == 0:
         rows = np.zeros(1, rows.dtype)
     return device.create_buffer_with_data(data=np.ascontiguousarray(rows), usage=usage)
+
+
+def room(device: Any, layout: np.dtype[Any], rows: int, usage: int = STORAGE) -> Any:
+    """Buffer of zeros for rows of one layout.
+
+    Raises:
+        GraphicsError: the device cannot bind so much at once, or has not so much memory.
+    """
+    check_size(device, rows * layout.itemsize)
+    with card_errors("its buffers"):
+        return device.create_buffer(size=max(rows, 1) * layout.itemsize, usage=usage)
+
+
+def check_size(device: Any, size: int) -> None:
+    """Raises GraphicsError where a buffer of ``size`` bytes cannot be bound at once."""
+    limit = device.limits["max-storage-buffer-binding-size"]
+    if size > limit:
+        raise GraphicsError(
+            f"{size / 1e6:.0f} MB are needed in one buffer and this adapter takes {limit / 1e6:.0f} MB: "
+            "place fewer plants"
+        )
 
 
 class GrowingBuffer:
@@ -39,14 +61,11 @@ class GrowingBuffer:
             GraphicsError: the device cannot bind so much at once.
         """
         if self.buffer is None or self.buffer.size < rows * self._row:
+            check_size(self._device, rows * self._row)
             limit = self._device.limits["max-storage-buffer-binding-size"]
-            if rows * self._row > limit:
-                raise GraphicsError(
-                    f"a frame needs {rows * self._row / 1e6:.0f} MB in one buffer and this adapter takes "
-                    f"{limit / 1e6:.0f} MB: place fewer plants"
-                )
             size = min(max(rows + rows // 4, 64) * self._row, limit // self._row * self._row)
-            self.buffer = self._device.create_buffer(size=size, usage=STORAGE)
+            with card_errors("the parts of a frame"):
+                self.buffer = self._device.create_buffer(size=size, usage=STORAGE)
 
     def write(self, rows: NDArray[Any], first: int = 0) -> None:
         """Copy rows to the card; there must be room."""

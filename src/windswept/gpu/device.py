@@ -13,6 +13,8 @@ from windswept.errors import GraphicsError
 
 DRIVER_LINE = "apt-get install -y --no-install-recommends mesa-vulkan-drivers"
 """Installs a software Vulkan driver on Debian and Ubuntu."""
+TIMESTAMPS = "timestamp-query"
+"""Feature with which the card says how long each stage takes."""
 _RAISED_LIMITS = ("max-storage-buffer-binding-size", "max-buffer-size")
 
 
@@ -25,8 +27,11 @@ def shared_device() -> Any:
     """
     adapter = _best_adapter()
     limits = {name: adapter.limits[name] for name in _RAISED_LIMITS}
+    features = [TIMESTAMPS] if TIMESTAMPS in adapter.features else []
     try:
-        return adapter.request_device_sync(label="windswept", required_limits=limits)
+        return adapter.request_device_sync(
+            label="windswept", required_limits=limits, required_features=features
+        )
     except RuntimeError as error:
         raise GraphicsError(f"the graphics driver of {_name(adapter)} failed: {error}") from error
 

@@ -1,4 +1,4 @@
-"""NumPy types of every struct in ``shaders/types.wgsl``, field for field; a test compares the two."""
+"""NumPy types of every struct in ``shaders/types.wgsl`` and ``motion.wgsl``, field for field; a test compares them."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import numpy as np
 MATRIX = ("<f4", (4, 4))
 REALS = ("<f4", (4,))
 COUNTS = ("<u4", (4,))
+COUNT = ("<u4",)
 
 FRAME = np.dtype(
     [
@@ -67,6 +68,67 @@ POSED_LEAF = LEAF
 GRASS_BLADE = np.dtype([("root", *REALS), ("chance", *REALS)])
 BATCH = np.dtype([("items", *COUNTS), ("scale", *REALS)])
 
+KIND = np.dtype([("ladder", *COUNTS), ("joints", *COUNTS), ("size", *REALS)])
+RUNG = np.dtype(
+    [("links", *COUNTS), ("groups", *COUNTS), ("probes", *COUNTS), ("room", *COUNTS), ("air", *REALS)]
+)
+LINK = np.dtype(
+    [
+        ("axis_1", *REALS),
+        ("axis_2", *REALS),
+        ("foot", *REALS),
+        ("vector", *REALS),
+        ("leaf_1", *REALS),
+        ("leaf_2", *REALS),
+        ("swing", *REALS),
+        ("more", *REALS),
+        ("rows", *COUNTS),
+    ]
+)
+GROUP = np.dtype(
+    [
+        ("centre", *REALS),
+        ("leaf_1", *REALS),
+        ("leaf_2", *REALS),
+        ("wood_1", *REALS),
+        ("wood_2", *REALS),
+        ("couple_x", *REALS),
+        ("couple_y", *REALS),
+        ("couple_z", *REALS),
+        ("sway_x", *REALS),
+        ("sway_y", *REALS),
+        ("sway_z", *REALS),
+        ("swing", *REALS),
+        ("rows", *COUNTS),
+    ]
+)
+LISTENER = np.dtype(COUNTS)
+SHAPE = np.dtype(
+    [
+        ("linear_1", *REALS),
+        ("square_1", *REALS),
+        ("mixed_1", *REALS),
+        ("linear_2", *REALS),
+        ("square_2", *REALS),
+        ("mixed_2", *REALS),
+    ]
+)
+ROOTED = np.dtype([("position", *REALS), ("heading", *REALS), ("rows", *COUNTS)])
+MOTION = np.dtype([("at", *COUNTS), ("origin", *COUNTS), ("wish", *COUNTS)])
+MOMENT = np.dtype([("eye", *REALS), ("time", *REALS), ("steps", *COUNTS), ("counts", *COUNTS)])
+AIR = np.dtype([("profile", *REALS), ("mean", *REALS), ("ground", *REALS), ("sources", *COUNTS)])
+WAVE = np.dtype([("phase", *REALS), ("push", *REALS)])
+GUST = np.dtype([("place", *REALS), ("shape", *REALS), ("fade", *REALS)])
+SHIFT = np.dtype([("rung", *COUNT), ("before", *COUNT), ("after", *COUNT), ("placement", *COUNT)])
+ROW = np.dtype(REALS)
+"""A bare ``vec4f``."""
+WORD = np.dtype("<u4")
+"""A bare ``u32``."""
+
+LANES = 64
+"""Placements in one block: LANES of ``motion.wgsl``."""
+KIND_LIMIT, RUNG_LIMIT = 64, 800
+"""Kinds, and simulation levels of all kinds, that the shaders' uniform tables hold."""
 NONE = 0xFFFFFFFF
 """Row number that stands for no row."""
 LOOK_LIMIT = 64

@@ -9,7 +9,7 @@ from typing import Any
 import wgpu
 
 SHADER_SETS = {
-    "curves": ("types", "curves"),
+    "curves": ("types", "rotation", "curves"),
     "bark": ("types", "light", "pieces", "bark"),
     "bend": ("types", "bend_types", "bend_frame", "bend_air", "bend"),
     "bend_bark": ("types", "light", "bend_types", "bend_frame", "bend_pieces", "bark"),
@@ -17,6 +17,16 @@ SHADER_SETS = {
     "ground": ("types", "light", "meadow", "ground"),
     "grass": ("types", "light", "meadow", "grass"),
     "sky": ("types", "light", "sky"),
+    "wind": ("motion", "wind"),
+    "springs": ("motion", "rotation", "springs"),
+    "choose": ("motion", "scan", "choose"),
+    "members": ("motion", "scan", "members"),
+    "plan": ("motion", "scan", "plan"),
+    "shift_state": ("motion", "shift_state"),
+    "carry_over": ("motion", "rotation", "joints", "carry_over"),
+    "fit_groups": ("motion", "rotation", "joints", "fit_groups"),
+    "pose_links": ("motion", "rotation", "joints", "pose_links"),
+    "crown": ("motion", "crown"),
 }
 """Files of ``shaders/`` that make up each module, one after the other."""
 
@@ -29,6 +39,8 @@ UNIFORM = {"type": "uniform"}
 DYNAMIC_UNIFORM = {"type": "uniform", "has_dynamic_offset": True}
 READ = {"type": "read-only-storage"}
 WRITE = {"type": "storage"}
+TEXTURE = {"sample_type": "unfilterable-float"}
+"""Of float32 texels that are loaded, not sampled."""
 
 
 def shader_text(name: str) -> str:
@@ -45,27 +57,41 @@ def shader_module(device: Any, name: str) -> Any:
 
 def buffers_layout(device: Any, stages: int, *buffers: dict[str, Any]) -> Any:
     """Bind group layout of buffers at bindings 0, 1, 2, ..."""
-    entries = [
-        {"binding": place, "visibility": stages, "buffer": buffer} for place, buffer in enumerate(buffers)
-    ]
+    return group_layout(device, stages, {place: {"buffer": kind} for place, kind in enumerate(buffers)})
+
+
+def group_layout(device: Any, stages: int, kinds: dict[int, dict[str, Any]]) -> Any:
+    """Bind group layout of resources of some kinds at the bindings given."""
+    entries = [{"binding": place, "visibility": stages, **kind} for place, kind in kinds.items()]
     return device.create_bind_group_layout(entries=entries)
 
 
 def bind(device: Any, layout: Any, *resources: Any) -> Any:
     """Bind group of resources at bindings 0, 1, 2, ...; buffers are bound whole."""
+    return group_of(device, layout, dict(enumerate(resources)))
+
+
+def group_of(device: Any, layout: Any, resources: dict[int, Any]) -> Any:
+    """Bind group of resources at the bindings given; buffers are bound whole."""
     entries = []
-    for place, resource in enumerate(resources):
+    for place, resource in resources.items():
         if isinstance(resource, wgpu.GPUBuffer):
             resource = {"buffer": resource, "offset": 0, "size": resource.size}
         entries.append({"binding": place, "resource": resource})
     return device.create_bind_group(layout=layout, entries=entries)
 
 
-def compute_pipeline(device: Any, layouts: list[Any], module: str, entry: str) -> Any:
-    """Compute pipeline with the given bind group layouts."""
+def compute_pipeline(
+    device: Any, layouts: list[Any], module: str, entry: str, constants: dict[str, float] | None = None
+) -> Any:
+    """Compute pipeline with the given bind group layouts and values of the shader's overrides."""
     return device.create_compute_pipeline(
         layout=device.create_pipeline_layout(bind_group_layouts=layouts),
-        compute={"module": shader_module(device, module), "entry_point": entry},
+        compute={
+            "module": shader_module(device, module),
+            "entry_point": entry,
+            "constants": constants or {},
+        },
     )
 
 

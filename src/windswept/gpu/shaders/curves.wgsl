@@ -1,5 +1,5 @@
 // Poses stems, pieces and leaves on the card; geometry/pose_curves.py is the same in NumPy.
-// Set: types + curves. A stem's shift is the sum of `offset` over its ancestors, and an offset needs only
+// Set: types + rotation + curves. A stem's shift is the sum of `offset` over its ancestors, and an offset needs only
 // unshifted curves, so three dispatches (offsets, shifts, then pieces and leaves) serve any depth.
 
 @group(1) @binding(0) var<storage, read> placements: array<Placement>;
@@ -11,11 +11,6 @@
 @group(1) @binding(6) var<storage, read_write> posed_pieces: array<PosedPiece>;
 @group(1) @binding(7) var<storage, read_write> posed_leaves: array<PosedLeaf>;
 @group(1) @binding(8) var<uniform> looks: array<Look, 64>;
-
-fn rotate(q: vec4f, v: vec3f) -> vec3f {
-    let twice = 2.0 * cross(q.xyz, v);
-    return v + q.w * twice + cross(q.xyz, twice);
-}
 
 fn carry(link: u32, offset: vec3f) -> vec3f {
     let pose = links[link];

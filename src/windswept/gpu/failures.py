@@ -1,0 +1,33 @@
+"""A card that fails: whatever a driver says becomes one clear line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import wgpu
+
+from windswept.errors import GraphicsError
+from windswept.gpu.device import shared_device
+
+MEND = "simulate and pose on the CPU instead, or place fewer plants"
+
+
+@contextmanager
+def card_errors(doing: str) -> Iterator[None]:
+    """Turns a lost device and too little memory into a GraphicsError; any other error is a bug and passes through.
+
+    A lost device is forgotten, so that the next one who asks for the shared device gets a new one.
+
+    Args:
+        doing: what the card was asked for, as in "stepping plants".
+    """
+    try:
+        yield
+    except wgpu.GPUOutOfMemoryError as error:
+        raise GraphicsError(f"the graphics card has too little memory for {doing}: {MEND}") from error
+    except wgpu.GPUError as error:
+        if "device is lost" not in str(error):
+            raise
+        shared_device.cache_clear()
+        raise GraphicsError(f"the graphics card was lost while {doing}: {MEND}") from error

@@ -1,0 +1,195 @@
+// `springs` on the card: motion/springs.py and motion/groups.py for LANES placements a workgroup, one a lane.
+// Set: motion + rotation + springs.
+//
+// The CPU walks root to leaf and back. One walk is enough: links stand depth first, so when a link's last descendant is
+// done, the force and moment beyond its joint are complete, and the joint takes its step at once. Only the links
+// between the root and the walk's place are held, in `stack`. Every lane owns its column: joints are stepped in place.
+
+@group(0) @binding(0) var<uniform> rungs: array<Rung, 800>;
+@group(0) @binding(1) var<storage, read> blocks: array<vec4u>;
+@group(0) @binding(2) var<storage, read> links: array<Link>;
+@group(0) @binding(3) var<storage, read> groups: array<Group>;
+@group(0) @binding(4) var<storage, read> wind: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> state: array<vec4f>;
+@group(0) @binding(6) var<storage, read_write> stack: array<vec4f>;
+@group(0) @binding(7) var<uniform> moment: Moment;
+
+const REST_THRESHOLD = 1e-9;
+const GROUP_REST_THRESHOLD = 1e-7;
+const TINY = 1e-30;
+const RECORD = 5u * LANES;
+
+struct Body {
+    rotation: vec4f,
+    place: vec3f,      // of the joint, m
+    spin: vec3f,       // rad/s
+    velocity: vec3f,   // of the joint, m/s
+    force: vec3f,      // of the air on everything beyond the joint that is done, N
+    torque: vec3f,     // the same about the origin, N m
+}
+
+// Where a lane's numbers lie.
+struct Column {
+    state: u32,
+    groups: u32,
+    wind: u32,
+    stack: u32,
+}
+
+fn lay_down(row: u32, body: Body) {
+    stack[row] = body.rotation;
+    stack[row + LANES] = vec4f(body.place, body.spin.x);
+    stack[row + 2u * LANES] = vec4f(body.velocity, body.spin.y);
+    stack[row + 3u * LANES] = vec4f(body.force, body.spin.z);
+    stack[row + 4u * LANES] = vec4f(body.torque, 0.0);
+}
+
+fn take_up(row: u32) -> Body {
+    let place = stack[row + LANES];
+    let velocity = stack[row + 2u * LANES];
+    let force = stack[row + 3u * LANES];
+    let spin = vec3f(place.w, velocity.w, force.w);
+    return Body(stack[row], place.xyz, spin, velocity.xyz, force.xyz, stack[row + 4u * LANES].xyz);
+}
+
+fn tensor_times(diagonal: vec3f, aside: vec3f, v: vec3f) -> vec3f {
+    return vec3f(
+        v.x * diagonal.x + v.y * aside.x + v.z * aside.y,
+        v.x * aside.x + v.y * diagonal.y + v.z * aside.z,
+        v.x * aside.y + v.y * aside.z + v.z * diagonal.z,
+    );
+}
+
+fn settled(value: vec3f, threshold: f32) -> vec3f {
+    return select(value, vec3f(0.0), abs(value) < vec3f(threshold));
+}
+
+fn air_at(column: Column, probe: u32, late: f32) -> vec4f {
+    let row = column.wind + 2u * probe * LANES;
+    return mix(wind[row], wind[row + LANES], late);
+}
+
+fn drag_force(link: Link, air: vec4f, velocity: vec3f, vector: vec3f) -> vec3f {
+    let speed = sqrt(dot(air.xyz - velocity, air.xyz - velocity) + TINY);
+    let u = air.xyz - velocity / (1.0 + speed * link.leaf_1.w);
+    let leaf = tensor_times(link.leaf_1.xyz, link.leaf_2.xyz, u);
+    let across = u - dot(vector, u) * link.vector.w * vector;
+    return speed * (air.w * leaf + link.leaf_2.w * across);
+}
+
+// Steps a group and adds its force and torque to the link that carries it.
+fn swing_group(group: Group, row: u32, air: vec4f, carrier: Body) -> Body {
+    let u = state[row].xyz;
+    let rate = state[row + LANES].xyz;
+    let arm = rotate(carrier.rotation, group.centre.xyz);
+    let swayed = vec3f(dot(group.sway_x.xyz, rate), dot(group.sway_y.xyz, rate), dot(group.sway_z.xyz, rate));
+    let velocity = carrier.velocity + cross(carrier.spin, arm) + rotate(carrier.rotation, swayed);
+    let speed = sqrt(dot(air.xyz - velocity, air.xyz - velocity) + TINY);
+    let relative = air.xyz - velocity / (1.0 + speed * group.leaf_2.w);
+    let leaf = speed * air.w;
+    let pressure = relative * (leaf * group.centre.w + speed * group.leaf_1.w);
+    let goal = rotate_back(carrier.rotation, pressure);
+    let y = u - goal;
+    let swung = settled(goal + group.swing.x * y + group.swing.y * rate, GROUP_REST_THRESHOLD);
+    state[row] = vec4f(swung, 0.0);
+    state[row + LANES] = vec4f(settled(group.swing.z * y + group.swing.w * rate, GROUP_REST_THRESHOLD), 0.0);
+    let force = leaf * tensor_times(group.leaf_1.xyz, group.leaf_2.xyz, relative)
+        + speed * tensor_times(group.wood_1.xyz, group.wood_2.xyz, relative);
+    let couple = vec3f(
+        dot(group.couple_x.xyz, pressure), dot(group.couple_y.xyz, pressure), dot(group.couple_z.xyz, pressure),
+    );
+    var loaded = carrier;
+    loaded.force += force;
+    loaded.torque += cross(carrier.place + arm, force) + couple;
+    return loaded;
+}
+
+// Pose of a link half a step ahead, and the air's force on it.
+fn pose_and_drag(link: Link, joint: vec4f, parent: Body, air: vec4f) -> Body {
+    let angle_1 = joint.x + joint.y * link.more.z;
+    let angle_2 = joint.z + joint.w * link.more.z;
+    let turn = angle_1 * link.axis_1.xyz + angle_2 * link.axis_2.xyz;
+    let rate = joint.y * link.axis_1.xyz + joint.w * link.axis_2.xyz;
+    let reach = rotate(parent.rotation, link.foot.xyz);
+    var body: Body;
+    body.rotation = multiply(parent.rotation, from_rotation_vector(turn));
+    body.place = parent.place + reach;
+    body.spin = parent.spin + rotate(parent.rotation, rate);
+    body.velocity = parent.velocity + cross(parent.spin, reach);
+    let vector = rotate(body.rotation, link.vector.xyz);
+    let lever = link.foot.w * vector;
+    body.force = drag_force(link, air, body.velocity + cross(body.spin, lever), vector);
+    body.torque = cross(body.place + lever, body.force);
+    return body;
+}
+
+// The exact step of one spring (angle, rate) towards compliance x torque; see springs.py on the tension.
+fn oscillate(link: Link, angle: f32, rate: f32, bend: f32, tension: f32) -> vec2f {
+    let y = (angle - clamp(bend, -MAX_ANGLE, MAX_ANGLE)) / tension;
+    let swung = clamp(angle - y + y * link.swing.x + rate * link.swing.y, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE);
+    let after = vec2f(swung, y * link.swing.z + rate * link.swing.w);
+    return select(after, vec2f(0.0), abs(after) < vec2f(REST_THRESHOLD));
+}
+
+fn swing_joint(link: Link, row: u32, body: Body, parent: Body) {
+    let joint = state[row];
+    let torque = rotate_back(parent.rotation, body.torque - cross(body.place, body.force));
+    let tension = max(sqrt(dot(body.force, body.force) + TINY) * link.more.y, 1.0);
+    let first = oscillate(link, joint.x, joint.y, dot(torque, link.axis_1.xyz) * link.axis_1.w, tension);
+    let second = oscillate(link, joint.z, joint.w, dot(torque, link.axis_2.xyz) * link.axis_2.w, tension);
+    state[row] = vec4f(first, second);
+}
+
+// One inner step of one placement: the walk over its links.
+fn walk(rung: Rung, column: Column, late: f32) {
+    var body: Body;
+    body.rotation = vec4f(0.0, 0.0, 0.0, 1.0);
+    var group = 0u;
+    for (; group < rung.groups.z; group++) {
+        let row = groups[rung.groups.x + group];
+        body = swing_group(row, column.groups + 2u * group * LANES, air_at(column, row.rows.x, late), body);
+    }
+    var top = column.stack;
+    for (var i = 0u; i < rung.links.y; i++) {
+        let link = links[rung.links.x + i];
+        lay_down(top, body);
+        top += RECORD;
+        body = pose_and_drag(link, state[column.state + i * LANES], body, air_at(column, link.rows.y, late));
+        for (; group < link.rows.z; group++) {
+            let row = groups[rung.groups.x + group];
+            body = swing_group(row, column.groups + 2u * group * LANES, air_at(column, row.rows.x, late), body);
+        }
+        var done = i;
+        for (var k = 0u; k < link.rows.w; k++) {
+            let ended = links[rung.links.x + done];
+            top -= RECORD;
+            var parent = take_up(top);
+            swing_joint(ended, column.state + done * LANES, body, parent);
+            parent.force += ended.more.x * body.force;
+            parent.torque += ended.more.x * body.torque;
+            body = parent;
+            done = ended.rows.x;
+        }
+    }
+}
+
+@compute @workgroup_size(64)
+fn step_block(
+    @builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) spread: vec3u, @builtin(local_invocation_index) lane: u32
+) {
+    for (var b = group.x; b < blocks[0].x; b += spread.x) {
+        let block = blocks[1u + b];
+        if lane >= block.z { continue; }
+        let rung = rungs[block.x];
+        let joints = rung.room.x + block.y * (rung.links.y + 2u * rung.groups.y) * LANES + lane;
+        let column = Column(
+            joints,
+            joints + rung.links.y * LANES,
+            rung.room.z + block.y * 2u * rung.probes.y * LANES + lane,
+            rung.room.y + block.y * (rung.links.z + 1u) * RECORD + lane,
+        );
+        for (var s = moment.steps.y; s < moment.steps.z; s++) {
+            walk(rung, column, f32(s + 1u) / f32(moment.steps.w));
+        }
+    }
+}

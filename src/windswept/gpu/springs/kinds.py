@@ -1,0 +1,58 @@
+"""What the card simulates: plants that are grown and compiled, and where they stand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from windswept.levels import Ladder, build_ladder, simplify
+from windswept.motion import Level, Model, build_model, finest_level
+from windswept.plants.plant import Plant
+from windswept.scene.grow_kinds import grow_kinds
+from windswept.scene.scene import Placements, Scene
+from windswept.scene.simulation import Simulation
+
+
+@dataclass(frozen=True, slots=True)
+class GrownKind:
+    """One plant with its constants of motion, and its P placements."""
+
+    plant: Plant
+    model: Model
+    ladder: Ladder | None
+    """None where every placement is simulated at level 0."""
+    placements: Placements
+
+    @property
+    def levels(self) -> tuple[Level, ...]:
+        """Finest first."""
+        return (finest_level(self.model),) if self.ladder is None else self.ladder.levels
+
+    @property
+    def radius(self) -> float:
+        """Of a ball round the root that holds the plant, m."""
+        return float(np.linalg.norm(self.plant.link_tip, axis=1).max())
+
+
+def grown_kinds(
+    scene: Scene, levels: bool = False, say: Callable[[str], None] = lambda line: None
+) -> list[GrownKind]:
+    """Grows and compiles the kinds of a scene.
+
+    Args:
+        scene: what stands where.
+        levels: whether plants far from the camera are simulated at coarser levels.
+        say: told of each plant that is grown.
+    """
+    kinds = []
+    for plant, placements in zip(grow_kinds(scene, say), scene.placements, strict=True):
+        model = build_model(plant)
+        kinds.append(GrownKind(plant, model, build_ladder(simplify(model)) if levels else None, placements))
+    return kinds
+
+
+def kinds_of(simulation: Simulation) -> list[GrownKind]:
+    """The kinds of a simulation on the CPU, with the ladders that it has built."""
+    return [GrownKind(kind.plant, kind.model, kind.ladder, kind.placements) for kind in simulation.kinds]

@@ -1,0 +1,84 @@
+"""room_for: how many placements each level has room for on a card."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windswept.errors import GraphicsError
+from windswept.gpu import layouts
+from windswept.motion import Level
+
+Counts = NDArray[np.int64]
+RECORD = 5
+"""Rows of a link in the stack: RECORD of ``springs.wgsl`` over LANES."""
+
+
+@dataclass(frozen=True, slots=True)
+class BlockSize:
+    """Rows of ``vec4f`` that one lane of a block takes at each of R rungs."""
+
+    state: Counts
+    """(R,) one a link, two a group."""
+    stack: Counts
+    """(R,) the links between the root and the walk's place."""
+    wind: Counts
+    """(R,) two a probe: both ends of an interval."""
+
+    @property
+    def columns(self) -> Counts:
+        """(R, 3) state, stack, wind."""
+        return np.stack([self.state, self.stack, self.wind], axis=1)
+
+
+def block_size(levels: list[Level]) -> BlockSize:
+    """Sizes of the blocks of some levels."""
+    depth = [int(level.depth.max(initial=0)) for level in levels]
+    return BlockSize(
+        np.array([level.link_count + 2 * level.group_count for level in levels]),
+        RECORD * (np.array(depth) + 1),
+        np.array([2 * len(level.probe_position) for level in levels]),
+    )
+
+
+def room_for(size: BlockSize, placements: Counts, coarsest: NDArray[np.bool_], limit: int) -> Counts:
+    """(R,) room of every rung, in whole blocks.
+
+    Where all fit everywhere, every rung has room for all placements of its kind. Where they do not, the rungs that take
+    most get less, all of them the same number of bytes; placements that find no room stay at the level they are at.
+
+    Args:
+        size: of a block at each rung.
+        placements: (R,) of the kind of each rung.
+        coarsest: (R,) whether the rung is the last of its ladder, which always has room for all.
+        limit: bytes that a buffer may have.
+
+    Raises:
+        GraphicsError: not even the coarsest levels fit.
+    """
+    everyone = -(-placements // layouts.LANES)
+    row_bytes = layouts.LANES * layouts.ROW.itemsize * size.columns
+
+    def blocks(share: float) -> Counts:
+        """Blocks of every rung if each buffer of it may have so many bytes."""
+        most = np.floor(share / row_bytes.max(axis=1)).astype(np.int64)
+        return np.where(coarsest, everyone, np.minimum(everyone, np.maximum(most, 1)))
+
+    def fits(share: float) -> bool:
+        return bool(((blocks(share)[:, None] * row_bytes).sum(axis=0) <= limit).all())
+
+    low, high = 0.0, float((everyone[:, None] * row_bytes).max(initial=0))
+    if not fits(low):
+        needed = int((blocks(low)[:, None] * row_bytes).sum(axis=0).max())
+        raise GraphicsError(
+            f"the simulation needs {needed / 1e6:.0f} MB in one buffer and this adapter takes {limit / 1e6:.0f} MB: "
+            "place fewer plants, or simulate on the CPU"
+        )
+    if fits(high):
+        return blocks(high) * layouts.LANES
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if fits(middle) else (low, middle)
+    return blocks(low) * layouts.LANES

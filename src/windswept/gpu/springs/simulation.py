@@ -1,0 +1,188 @@
+"""GpuSimulation: a scene in motion on the card, as ``scene.Simulation`` is on the CPU."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windswept.gpu import layouts
+from windswept.gpu.device import shared_device
+from windswept.gpu.failures import card_errors
+from windswept.gpu.springs.air import air_rows
+from windswept.gpu.springs.card_state import CardState
+from windswept.gpu.springs.kinds import GrownKind
+from windswept.gpu.springs.rung_arrays import rung_arrays
+from windswept.gpu.springs.seats import first_seats
+from windswept.gpu.springs.walk import Walk
+from windswept.levels import Eye
+from windswept.motion import TIME_STEP
+from windswept.plants.plant import Floats, Ints
+from windswept.plants.pose import Pose
+from windswept.scene.camera import view_at
+from windswept.scene.moving_kind import BLEND_TIME
+from windswept.scene.scene import Scene
+from windswept.scene.simulation import WIND_INTERVAL
+
+
+class GpuSimulation:
+    """Runs a scene on the card; the same whatever the frame rate. Nothing is read back but where it says so.
+
+    Args:
+        scene: what stands where, in which wind.
+        kinds: its plants, grown and compiled.
+        pixels: error that may be seen, at ``picture_height``.
+        picture_height: of the picture, pixels.
+        room: bytes that a buffer may have; None for what the adapter takes.
+
+    Raises:
+        GraphicsError: no adapter, or one with too little memory.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        kinds: list[GrownKind],
+        pixels: float = 1.0,
+        picture_height: int = 720,
+        room: int | None = None,
+    ) -> None:
+        self.scene, self.kinds = scene, kinds
+        self.wind = scene.wind
+        """May be replaced while the simulation runs."""
+        self.eye: Eye | None = None
+        """Who looks; None for the scene's own camera."""
+        self.time = 0.0
+        """Seconds since rest."""
+        self.step_count = 0
+        """Inner steps taken since rest."""
+        self._pixels, self._picture_height = pixels, picture_height
+        self._device = shared_device()
+        limit = self._device.limits["max-storage-buffer-binding-size"]
+        self._arrays = rung_arrays(kinds, limit if room is None else min(room, limit))
+        seats = first_seats(kinds, self._arrays, self._eye_now())
+        with card_errors("the plants' motion"):
+            self.card = CardState(self._device, self._arrays, seats, scene.terrain.heights)
+            self._walk = Walk(self._device, self.card, len(self._arrays.rungs), len(self._arrays.rooted))
+            self.card.write_moment(self._moment(0, 0))
+            self._record(self._walk.plan)
+            self._sample_wind()
+
+    def advance(self, seconds: float) -> GpuSimulation:
+        """Lets ``seconds`` pass: as many fixed inner steps as fit.
+
+        Raises:
+            GraphicsError: the card was lost.
+        """
+        self.time += seconds
+        # A frame rate's rounding must not lose a step that is due.
+        due = math.floor(self.time / TIME_STEP + 1e-6)
+        with card_errors("stepping plants"):
+            while self.step_count < due:
+                taken = self.step_count % WIND_INTERVAL
+                if taken == 0 and self.step_count:
+                    self._change_levels()
+                    self._sample_wind()
+                count = min(due - self.step_count, WIND_INTERVAL - taken)
+                self.card.write_moment(self._moment(taken, taken + count))
+                self._record(self._walk.step)
+                self.step_count += count
+        return self
+
+    def pose_on_card(self) -> Any:
+        """Poses every link of every placement as of now.
+
+        Returns:
+            Buffer of ``LINK_POSE`` rows, kind after kind, placement after placement.
+        """
+        with card_errors("posing plants"):
+            self.card.write_moment(self._moment(0, 0))
+            self._record(self._walk.pose)
+        return self.card.resources["poses"]
+
+    @property
+    def pose(self) -> list[Pose]:
+        """Where every link of every kind is at this moment, read back."""
+        self.pose_on_card()
+        rows = self.card.read("poses", "<f4").reshape(-1, 8)
+        poses, first = [], 0
+        for kind in self.kinds:
+            shape = (kind.placements.count, kind.model.link_count, 8)
+            size = shape[0] * shape[1]
+            poses.append(Pose(rows[first : first + size].reshape(shape)))
+            first += size
+        return poses
+
+    @property
+    def wind_speeds(self) -> list[Floats]:
+        """(P,) mean wind speed in the crown of every placement, m/s, kind by kind, read back."""
+        speeds = self.card.read("speeds", "<f4")[: len(self._arrays.rooted)]
+        return np.split(speeds, self._arrays.kinds["ladder"][1:, 2])
+
+    @property
+    def levels_now(self) -> list[Ints]:
+        """(P,) level of every placement, or the one it is blending to, kind by kind, read back."""
+        at = self.card.read("motions", layouts.MOTION)["at"][: len(self._arrays.rooted), 0]
+        place = self._arrays.rungs["groups"][at, 3].astype(np.int32)
+        return np.split(place, self._arrays.kinds["ladder"][1:, 2])
+
+    @property
+    def stepped_count(self) -> int:
+        """Links and groups that are stepped, over all placements, read back."""
+        rungs = self._arrays.rungs
+        oscillators = rungs["links"][:, 1].astype(np.int64) + rungs["groups"][:, 1]
+        return int((self.card.read("populations", "<u4") * oscillators).sum())
+
+    @property
+    def refused_count(self) -> int:
+        """Placements that had to stay at their level for want of room, the last time levels changed; read back."""
+        return int(self.card.read("tally", "<u4")[2])
+
+    @property
+    def link_count(self) -> int:
+        """Links of all placements."""
+        return self._arrays.pose_rows
+
+    @property
+    def stage_milliseconds(self) -> dict[str, float]:
+        """How long each stage took on the card when it last ran; empty on a card without a clock."""
+        return self._walk.times.read()
+
+    def _change_levels(self) -> None:
+        """Lets every placement go to the level that the camera asks for."""
+        if any(kind.ladder for kind in self.kinds):
+            self.card.write_moment(self._moment(0, 0))
+            self._record(self._walk.change_levels)
+
+    def _sample_wind(self) -> None:
+        """Winds at both ends of the interval that begins now."""
+        start, stop = self.step_count * TIME_STEP, (self.step_count + WIND_INTERVAL) * TIME_STEP
+        if self.card.write_air(air_rows(self.wind, self.scene.terrain, start, stop)):
+            self._walk.rebind_wind()
+        self._record(self._walk.sample_wind)
+
+    def _record(self, stage: Any) -> None:
+        """Hands one stage to the card."""
+        encoder = self._device.create_command_encoder()
+        stage(encoder)
+        self._device.queue.submit([encoder.finish()])
+
+    def _eye_now(self) -> Eye:
+        """Who looks at this moment."""
+        if self.eye is not None:
+            return self.eye
+        view = view_at(self.scene.camera, self.step_count * TIME_STEP)
+        return Eye(view.eye, view.fov_y, self._picture_height, self._pixels)
+
+    def _moment(self, first: int, end: int) -> NDArray[np.void]:
+        """``MOMENT``, with the inner steps of the interval that are to be taken."""
+        eye = self._eye_now()
+        row = np.zeros(1, layouts.MOMENT)
+        row["eye"] = *eye.position, float(eye.metres(np.ones(1))[0])
+        row["time"] = 1.0 + eye.dead_band, self.time - self.step_count * TIME_STEP, TIME_STEP, 0.0
+        row["steps"] = self.step_count, first, end, WIND_INTERVAL
+        blend = round(BLEND_TIME / TIME_STEP)
+        row["counts"] = len(self._arrays.rungs), len(self.kinds), len(self._arrays.rooted), blend
+        return row

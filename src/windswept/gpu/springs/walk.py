@@ -1,0 +1,94 @@
+"""Walk: the kernels of a simulation in the order in which an interval of the wind needs them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from windswept.gpu.kernel import Kernel
+from windswept.gpu.springs.card_state import JOIN, JOIN_GROUPS, SHIFT, STEP, WIND, CardState
+from windswept.gpu.stage_times import StageTimes
+from windswept.motion.lanes import WIDTH
+
+STAGES = ("levels", "wind", "simulate", "pose")
+WORKGROUP = 64
+
+
+class Walk:
+    """Records what the card is to do.
+
+    Args:
+        device: the card.
+        card: what it does it with.
+        rungs: levels of all kinds.
+        placements: of all kinds.
+    """
+
+    def __init__(self, device: Any, card: CardState, rungs: int, placements: int) -> None:
+        self._card, self._rungs = card, rungs
+        self._crowd = -(-placements // WORKGROUP)
+        self.times = StageTimes(device, STAGES)
+
+        def kernel(module: str, entry: str, constants: dict[str, float] | None = None) -> Kernel:
+            return Kernel(device, module, entry, card.resources, constants)
+
+        self._wish = kernel("choose", "wish", {"REGISTER": WIDTH})
+        self._rank = kernel("choose", "rank", {"REGISTER": WIDTH})
+        self._give = kernel("choose", "give", {"REGISTER": WIDTH})
+        self._compact = kernel("members", "compact")
+        self._settle = kernel("members", "settle")
+        self._plan = kernel("plan", "plan")
+        self._shift = kernel("members", "shift")
+        self._shift_state = kernel("shift_state", "shift_state")
+        self._join = kernel("carry_over", "join")
+        self._fit_groups = kernel("fit_groups", "fit_groups")
+        self._sample = kernel("wind", "sample")
+        self._crown = kernel("crown", "crown_speed")
+        self._step = kernel("springs", "step_block")
+        self._pose = kernel("pose_links", "pose_block")
+
+    def rebind_wind(self) -> None:
+        """Takes the buffers of a wind with more sources."""
+        self._sample.bind(self._card.resources)
+
+    def plan(self, encoder: Any) -> None:
+        """Lists the blocks of the members as they stand."""
+        compute_pass = encoder.begin_compute_pass()
+        self._plan.record(compute_pass, 1)
+        compute_pass.end()
+
+    def change_levels(self, encoder: Any) -> None:
+        """Ends blends that are over, begins those that the eye asks for, and closes the ranks."""
+        planned = self._card.resources["dispatches"]
+        encoder.clear_buffer(self._card.resources["tally"])
+        compute_pass = encoder.begin_compute_pass(**self.times.around("levels"))
+        self._wish.record(compute_pass, self._crowd)
+        self._rank.record(compute_pass, self._rungs)
+        self._give.record(compute_pass, self._crowd)
+        self._compact.record(compute_pass, self._rungs)
+        self._settle.record(compute_pass, self._crowd)
+        self._plan.record(compute_pass, 1)
+        self._shift.record_planned(compute_pass, planned, SHIFT)
+        self._shift_state.record_planned(compute_pass, planned, SHIFT)
+        self._join.record_planned(compute_pass, planned, JOIN)
+        self._fit_groups.record_planned(compute_pass, planned, JOIN_GROUPS)
+        compute_pass.end()
+
+    def sample_wind(self, encoder: Any) -> None:
+        """Samples the wind at both ends of an interval, at every probe of every member."""
+        planned = self._card.resources["dispatches"]
+        compute_pass = encoder.begin_compute_pass(**self.times.around("wind"))
+        self._sample.record_planned(compute_pass, planned, WIND)
+        self._crown.record_planned(compute_pass, planned, STEP)
+        compute_pass.end()
+
+    def step(self, encoder: Any) -> None:
+        """Takes the inner steps that the moment says are due."""
+        compute_pass = encoder.begin_compute_pass(**self.times.around("simulate"))
+        self._step.record_planned(compute_pass, self._card.resources["dispatches"], STEP)
+        compute_pass.end()
+
+    def pose(self, encoder: Any) -> None:
+        """Writes where every link of every placement is now."""
+        compute_pass = encoder.begin_compute_pass(**self.times.around("pose"))
+        self._pose.record_planned(compute_pass, self._card.resources["dispatches"], STEP)
+        compute_pass.end()
