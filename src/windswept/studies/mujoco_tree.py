@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 
 from windswept.motion.model import Model
+from windswept.plants.air import reconfiguration
 
 
 def mujoco_tree(model: Model, time_step: float | None = None) -> mujoco.MjModel:
@@ -65,3 +66,53 @@ def mujoco_frequencies(tree: mujoco.MjModel) -> np.ndarray:
     root = 1.0 / np.sqrt(tree.jnt_stiffness)
     values = np.linalg.eigvalsh(root[:, None] * mass * root[None, :])
     return np.sort(1.0 / np.sqrt(values)) / (2.0 * np.pi)
+
+
+class MujocoPlant:
+    """A plant in MuJoCo, blown at by our drag.
+
+    Args:
+        model: the plant's constants.
+        time_step: MuJoCo's own, s.
+    """
+
+    def __init__(self, model: Model, time_step: float) -> None:
+        self.model = model
+        self.tree = mujoco_tree(model, time_step)
+        self.data = mujoco.MjData(self.tree)
+        mujoco.mj_forward(self.tree, self.data)
+        skeleton, drag = model.skeleton, model.drag
+        self._order = np.array([self._site_body(link) for link in range(model.link_count)])
+        self._lever = (drag.centre * skeleton.length)[:, None]
+        xx, yy, zz, xy, xz, yz = drag.leaf.T
+        self._leaf = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1)
+
+    def _site_body(self, link: int) -> int:
+        return int(self.tree.site(f"tip{link}").bodyid[0])
+
+    def _rotated(self, vector: np.ndarray) -> np.ndarray:
+        """(L, 3) vectors of the links, turned as their bodies are."""
+        matrix = self.data.xmat[self._order].reshape(-1, 3, 3)
+        return np.einsum("lij,lj->li", matrix, vector)
+
+    def tips(self) -> np.ndarray:
+        """(L, 3) far end of every link, m."""
+        return self.data.xpos[self._order] + self._rotated(self.model.skeleton.vector)
+
+    def step(self, wind: np.ndarray) -> None:
+        """One step of MuJoCo in (B, 3) air velocities at the probes, m/s."""
+        skeleton, data = self.model.skeleton, self.data
+        direction = self._rotated(skeleton.vector) / skeleton.length[:, None]
+        centre = data.xpos[self._order] + self._lever * direction
+        spin, at = data.cvel[self._order, :3], data.subtree_com[self.tree.body_rootid[self._order]]
+        velocity = data.cvel[self._order, 3:] + np.cross(spin, centre - at)
+        air = wind[self.model.link_probe]
+        folded = reconfiguration(self.model.material, np.linalg.norm(air, axis=1)).astype(np.float64)
+        u = air - velocity
+        speed = np.linalg.norm(u, axis=1)[:, None]
+        across = u - direction * np.sum(direction * u, axis=1)[:, None]
+        leaf = np.einsum("lij,lj->li", self._leaf, u)
+        force = speed * (folded[:, None] * leaf + self.model.drag.wood[:, None] * across)
+        data.xfrc_applied[self._order, :3] = force
+        data.xfrc_applied[self._order, 3:] = np.cross(centre - data.xipos[self._order], force)
+        mujoco.mj_step(self.tree, data)

@@ -1,0 +1,68 @@
+"""The constants of a plant as the multibody kernels read them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from windswept.motion.model import Model
+from windswept.motion.rods import Doubles
+from windswept.plants.plant import Floats
+
+COLUMN_COUNT = 24
+"""Columns of the packed constants; the kernels read them by the numbers below."""
+AXIS_1, AXIS_2, DIRECTION, REACH, LEVER = 0, 3, 6, 9, 10
+DRAG_LEAF, DRAG_WOOD, MASS, MOMENT, INERTIA = 11, 17, 18, 19, 20
+STIFFNESS_1, STIFFNESS_2, LAG = 21, 22, 23
+
+MAX_ANGLE = 1.5
+"""Where a joint stops, rad: wood that is bent so far at one joint has long left the linear law."""
+REST_THRESHOLD = 1e-9
+"""Angles, rates and velocities below this are put to rest: dying motion must not end in denormals."""
+SETTLING = 0.5
+"""How fast links forget what they carry that no motion of their joints accounts for, 1/s."""
+MOST_WARPED = 2.0
+"""Angle of a plant's first mode in a step, rad, beyond which its frequency is no longer kept (Nyquist is pi)."""
+
+
+def warped_step(model: Model) -> float:
+    """The step to reckon with so that the plant's first mode turns by its true angle in ``time_step``, s.
+
+    The trapezoidal rule turns a mode by 2 atan(omega H / 2) in a step H: too slow by (omega h)^2 / 12. With
+    H = (2 / omega) tan(omega h / 2) the first mode is exact and all above it are nearer to the truth.
+    """
+    frequency = model.stem_frequency[model.skeleton.stem[model.skeleton.parent < 0]].min()
+    angle = min(frequency * model.time_step, MOST_WARPED)
+    return float(model.time_step * np.tan(0.5 * angle) / (0.5 * angle))
+
+
+def forces_at(model: Model) -> float:
+    """How far into a step forces are taken, s: a hair beyond its middle, which keeps the energy exactly."""
+    return warped_step(model) * (0.5 + SETTLING * model.time_step)
+
+
+def joint_lag(model: Model) -> Doubles:
+    """(L,) damping over stiffness of every joint, s, so that its stem's own mode has its damping ratio."""
+    return (2.0 * model.damping_ratio / model.stem_frequency)[model.skeleton.stem]
+
+
+def pack_multibody(model: Model) -> Floats:
+    """(L, COLUMN_COUNT) joint axes and link direction at rest, distance from the parent's joint (m), distance of the
+    drag centre (m), drag tensor of leaves and coefficient of wood (kg/m), mass (kg), first moment (kg m), inertia
+    across the link through its joint (kg m^2), stiffness of both springs (N m/rad), damping over stiffness (s).
+    """
+    skeleton, rods, drag = model.skeleton, model.rods, model.drag
+    inner = skeleton.parent >= 0
+    packed = np.zeros((model.link_count, COLUMN_COUNT), np.float32)
+    packed[:, AXIS_1 : AXIS_1 + 3] = skeleton.axes[:, 0]
+    packed[:, AXIS_2 : AXIS_2 + 3] = skeleton.axes[:, 1]
+    packed[:, DIRECTION : DIRECTION + 3] = skeleton.vector / skeleton.length[:, None]
+    packed[inner, REACH] = (skeleton.attach * skeleton.length[skeleton.parent])[inner]
+    packed[:, LEVER] = drag.centre * skeleton.length
+    packed[:, DRAG_LEAF : DRAG_LEAF + 6] = drag.leaf
+    packed[:, DRAG_WOOD] = drag.wood
+    packed[:, MASS] = rods.mass
+    packed[:, MOMENT] = rods.moment * skeleton.length
+    packed[:, INERTIA] = rods.inertia
+    packed[:, STIFFNESS_1 : STIFFNESS_2 + 1] = 1.0 / rods.compliance
+    packed[:, LAG] = joint_lag(model)
+    return packed

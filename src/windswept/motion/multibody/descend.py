@@ -1,0 +1,172 @@
+"""Root to leaf: where every link is half a step ahead, how it moves, and the force and moment on it.
+
+The force is what the link's mass asks for to follow the joints while none accelerates (centrifugal and gyroscopic
+terms), less the drag. World-aligned axes at each joint: nothing is rotated on the way from link to link.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from windswept.motion.lanes import FAST_MATH, WIDTH, clamped, load, sqrt, store
+from windswept.motion.multibody.constants import (
+    AXIS_1,
+    AXIS_2,
+    DRAG_LEAF,
+    DRAG_WOOD,
+    INERTIA,
+    LEVER,
+    MASS,
+    MAX_ANGLE,
+    MOMENT,
+    REACH,
+)
+from windswept.motion.multibody.joint import half_turn, joint_axes
+from windswept.motion.registers import constant3, load3, load4, store3, tensor_times
+from windswept.motion.rotation import add_scaled, cross, dot, multiply, rotate
+
+_F = np.float32
+_W = np.uintp(WIDTH)
+_TINY = _F(1e-30)
+_LIMIT: Any = _F(MAX_ANGLE)
+
+RECORD = np.uintp(23 * WIDTH)
+"""Scratch of a link: direction, both joint axes (3 each); then first force, moment (3 each), drag of leaves and of wood
+per velocity (1 each), later both rows of the joint's answer (6 each) and its own acceleration (2)."""
+SLOT = np.uintp(13 * WIDTH)
+"""Scratch of a depth: rotation (4), angular velocity, joint velocity, rate of the direction (3 each)."""
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def drag(c, link, air, v, b):  # type: ignore[no-untyped-def]
+    """Force of the air on a link with direction b and velocity v at its drag centre; drag over velocity of its leaves'
+    tensor and of its wood.
+    """
+    u = add_scaled(air, v, _F(-1.0))
+    speed = sqrt(dot(u, u) + _TINY)
+    leaf, wood = speed * air[3], speed * c[link, DRAG_WOOD]
+    on_leaf, u = tensor_times(c, link, DRAG_LEAF, u), add_scaled(u, b, -dot(b, u))
+    force = (
+        on_leaf[0] * leaf + u[0] * wood,
+        on_leaf[1] * leaf + u[1] * wood,
+        on_leaf[2] * leaf + u[2] * wood,
+    )
+    return force, leaf, wood
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def combined(frame, v):  # type: ignore[no-untyped-def]
+    """Vector with components v along the three vectors of a frame."""
+    return add_scaled(
+        add_scaled((frame[0][0] * v[0], frame[0][1] * v[0], frame[0][2] * v[0]), frame[1], v[1]),
+        frame[2],
+        v[2],
+    )
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def turn_joint(c, link, joints, ahead, a, above, here):  # type: ignore[no-untyped-def]
+    """Turns a link's joint: writes its rotation; gives its direction, axes and rate of turn in the world."""
+    joint = link * _W * np.uintp(4)
+    rate_1, rate_2 = load(joints, joint + _W), load(joints, joint + _W * np.uintp(3))
+    angle_1 = clamped(load(joints, joint) + rate_1 * ahead, _LIMIT)
+    angle_2 = clamped(load(joints, joint + _W + _W) + rate_2 * ahead, _LIMIT)
+    x = angle_1 * angle_1 + angle_2 * angle_2
+    s, cosine = half_turn(x)
+    first, second = constant3(c, link, AXIS_1), constant3(c, link, AXIS_2)
+    q = load4(a, above)
+    world_1, world_2 = rotate(q, first), rotate(q, second)
+    frame = (world_1, world_2, cross(world_1, world_2))
+    one, two = angle_1 * s, angle_2 * s
+    q = multiply(
+        q,
+        (
+            one * first[0] + two * second[0],
+            one * first[1] + two * second[1],
+            one * first[2] + two * second[2],
+            cosine,
+        ),
+    )
+    store3(a, here, q)
+    store(a, here + _W * np.uintp(3), q[3])
+    sine = (s + s) * cosine
+    b = combined(frame, (angle_2 * sine, -(angle_1 * sine), _F(1.0) - (x + x) * s * s))
+    axis_1, axis_2 = joint_axes(angle_1, angle_2, x, s)
+    axis_1, axis_2 = combined(frame, axis_1), combined(frame, axis_2)
+    turning = (
+        axis_1[0] * rate_1 + axis_2[0] * rate_2,
+        axis_1[1] * rate_1 + axis_2[1] * rate_2,
+        axis_1[2] * rate_1 + axis_2[2] * rate_2,
+    )
+    return b, axis_1, axis_2, turning
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def carry(carried, at, now, per_ahead, beyond):  # type: ignore[no-untyped-def]
+    """Acceleration from a link's carried velocity to the one that its joints' rates give it where they now stand.
+
+    Leaves in ``carried`` the velocity as far beyond that as the old one was behind; ``advance`` adds the joints' gain.
+    """
+    old = load3(carried, at)
+    behind = add_scaled(now, old, _F(-1.0))
+    store3(carried, at, add_scaled(old, behind, beyond))
+    return behind[0] * per_ahead, behind[1] * per_ahead, behind[2] * per_ahead
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def descend(c, depth, probe, joints, carried, wind, a, slots, ahead, beyond):  # type: ignore[no-untyped-def]
+    """Writes the record of every link, as the way from leaf to root reads it.
+
+    Args:
+        c: constants.
+        depth: of every link.
+        probe: of every link.
+        joints: angles and rates.
+        carried: velocity of every link's joint and direction as the last step left them; moved on by what follows
+            from the joint rates alone.
+        wind: air velocity and leaf reconfiguration at the probes.
+        a: scratch.
+        slots: where the slots of the depths begin.
+        ahead: how far into the step forces are taken, s.
+        beyond: the step over that.
+    """
+    three, four, seven = _W * np.uintp(3), _W * np.uintp(4), _W * np.uintp(7)
+    per_ahead = _F(1.0) / ahead
+    for i in range(len(depth)):
+        link = np.uintp(i)
+        above = slots + np.uintp(depth[link]) * SLOT
+        here = above + SLOT
+        b, axis_1, axis_2, turning = turn_joint(c, link, joints, ahead, a, above, here)
+        spin = add_scaled(load3(a, above + four), turning, _F(1.0))
+        v = add_scaled(load3(a, above + seven), load3(a, above + seven + three), c[link, REACH])
+        b_rate = cross(spin, b)
+        store3(a, here + four, spin)
+        store3(a, here + seven, v)
+        store3(a, here + seven + three, b_rate)
+        kept = link * _W * np.uintp(6)
+        pull = carry(carried, kept, v, per_ahead, beyond)
+        b_pull = carry(carried, kept + three, b_rate, per_ahead, beyond)
+        air = load4(wind, np.uintp(probe[link]) * four)
+        force, leaf, wood = drag(c, link, air, add_scaled(v, b_rate, c[link, LEVER]), b)
+        moment = cross(
+            b,
+            (
+                pull[0] * c[link, MOMENT] + b_pull[0] * c[link, INERTIA] - force[0] * c[link, LEVER],
+                pull[1] * c[link, MOMENT] + b_pull[1] * c[link, INERTIA] - force[1] * c[link, LEVER],
+                pull[2] * c[link, MOMENT] + b_pull[2] * c[link, INERTIA] - force[2] * c[link, LEVER],
+            ),
+        )
+        force = (
+            pull[0] * c[link, MASS] + b_pull[0] * c[link, MOMENT] - force[0],
+            pull[1] * c[link, MASS] + b_pull[1] * c[link, MOMENT] - force[1],
+            pull[2] * c[link, MASS] + b_pull[2] * c[link, MOMENT] - force[2],
+        )
+        record = link * RECORD
+        for vector in (b, axis_1, axis_2, force, moment):
+            store3(a, record, vector)
+            record += three
+        store(a, record, leaf)
+        store(a, record + _W, wood)
