@@ -1,4 +1,4 @@
-"""The ground: a square heightfield, flat or gently hilly."""
+"""The ground: a square heightfield, flat, gently hilly, or from an image of heights."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.ndimage import map_coordinates
+from scipy.ndimage import gaussian_filter, map_coordinates
 
 Floats = NDArray[np.float32]
 Reals = NDArray[np.float64]
@@ -16,6 +16,8 @@ OCTAVES = 4
 OCTAVE_GAIN = 0.4
 FINEST_STEP, MOST_CELLS = 1.0, 1024
 """Edge of a cell, m, unless the ground is so large that it would have more cells a side than this."""
+STEP_BLURS = (16.0, 8.0, 4.0, 2.0, 1.0)
+"""Widths of the blurs that take the steps out of a height image, from terraces to single pixels, pixels."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +49,35 @@ class Terrain:
         south = self.heights[row, column] * (1.0 - fx) + self.heights[row, column + 1] * fx
         north = self.heights[row + 1, column] * (1.0 - fx) + self.heights[row + 1, column + 1] * fx
         return np.asarray(south * (1.0 - fy) + north * fy, dtype=np.float64)
+
+    def gradient(self) -> Floats:
+        """(2, G, G) rise towards +x and towards +y at the grid points, central differences, m/m."""
+        north, east = np.gradient(self.heights, self.spacing)
+        return np.stack([east, north]).astype(np.float32)
+
+    def slope(self, x: ArrayLike, y: ArrayLike) -> Reals:
+        """Angle of the ground to the horizontal, smooth over the edges of the drawn grid.
+
+        Args:
+            x: any shape, m.
+            y: same shape, m.
+
+        Returns:
+            Same shape, radians.
+        """
+        east, north = self._rise(x, y)
+        return np.arctan(np.hypot(east, north))
+
+    def normal(self, x: ArrayLike, y: ArrayLike) -> Reals:
+        """(..., 3) unit normal of the ground at x, y of any one shape, smooth over the edges of the drawn grid."""
+        east, north = self._rise(x, y)
+        upright = np.stack([-east, -north, np.ones_like(east)], axis=-1)
+        return np.asarray(upright / np.linalg.norm(upright, axis=-1, keepdims=True))
+
+    def _rise(self, x: ArrayLike, y: ArrayLike) -> tuple[Reals, Reals]:
+        """Rise towards +x and +y, bilinear between grid points."""
+        east, north = (Terrain(self.size, rise).height(x, y) for rise in self.gradient())
+        return east, north
 
     def _cell(self, coordinate: ArrayLike) -> tuple[NDArray[np.intp], Reals]:
         """Index of the cell a coordinate falls in, and where in the cell, 0..1."""
@@ -80,13 +111,45 @@ def hilly_terrain(size: float, relief: float, hill_length: float, rng: np.random
     cells = int(np.clip(np.ceil(size / FINEST_STEP), 16, MOST_CELLS))
     heights = np.zeros((cells + 1, cells + 1))
     for octave in range(OCTAVES):
-        heights += OCTAVE_GAIN**octave * _spline_noise(cells + 1, size / hill_length * 2.0**octave, rng)
+        heights += OCTAVE_GAIN**octave * spline_noise(cells + 1, size / hill_length * 2.0**octave, rng)
     span = np.ptp(heights)
     heights = (heights - heights.mean()) * (relief / span if span > 0.0 else 0.0)
     return Terrain(size=size, heights=heights.astype(np.float32))
 
 
-def _spline_noise(points: int, waves: float, rng: np.random.Generator) -> Reals:
+def image_terrain(size: float, grey: Reals, step: float, low: float, high: float) -> Terrain:
+    """Ground from an image of heights; where it has more pixels than the grid has points, it is resampled.
+
+    Args:
+        size: edge of the square, m.
+        grey: (R, R) 0 to 1, the first row in the north; the middles of the outer pixels lie on the edge.
+        step: difference of neighbouring grey levels, whose terraces are smoothed; 0 for none.
+        low: height of black, m.
+        high: height of white, m.
+    """
+    points = min(len(grey), MOST_CELLS + 1)
+    place = np.linspace(0.0, len(grey) - 1.0, points)
+    smooth = without_steps(grey[::-1], step)
+    if points < len(grey):
+        smooth = gaussian_filter(smooth, 0.5 * len(grey) / points, mode="nearest")
+        smooth = map_coordinates(smooth, np.meshgrid(place, place, indexing="ij"), order=1)
+    return Terrain(size=size, heights=(low + (high - low) * smooth).astype(np.float32))
+
+
+def without_steps(grey: Reals, step: float) -> Reals:
+    """The smoothest ground that the grey levels could have been rounded from: blurs held to half a step.
+
+    Args:
+        grey: (R, C) any range.
+        step: difference of neighbouring levels.
+    """
+    smooth = grey
+    for width in STEP_BLURS if step > 0.0 else ():
+        smooth = np.clip(gaussian_filter(smooth, width, mode="nearest"), grey - 0.5 * step, grey + 0.5 * step)
+    return np.asarray(smooth)
+
+
+def spline_noise(points: int, waves: float, rng: np.random.Generator) -> Reals:
     """(points, points) smooth noise with about ``waves`` hills a side: random values, cubic B-spline between."""
     knots = 2.0 * waves
     values = rng.uniform(-1.0, 1.0, (int(np.ceil(knots)) + 5,) * 2)
