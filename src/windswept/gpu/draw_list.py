@@ -99,9 +99,9 @@ def draw_list(
         meshes.append(detail.leaf_mesh)
         link_first += len(posed.position) * kind.link_count
         shift_first += len(posed.position) * kind.stem_count
-    return _arrange(
-        np.concatenate(rows), np.concatenate(centres), np.concatenate(radii), np.concatenate(meshes), view
-    )
+    placements = np.concatenate(rows)
+    placements["number"][:, 0] = np.arange(len(placements))
+    return _arrange(placements, np.concatenate(centres), np.concatenate(radii), np.concatenate(meshes), view)
 
 
 def _placed_centres(kind: Kind, posed: PosedPlants) -> Doubles:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -27,14 +28,14 @@ class Camera:
 class PosedPlants:
     """P placements of one kind of plant, as they are at one moment."""
 
-    link: Floats
-    """(P, L, 8) ``Pose.link``."""
+    link: Floats | None
+    """(P, L, 8) ``Pose.link``; None where the frame's ``motion`` holds it."""
     position: Floats
     """(P, 3) roots in the world, m."""
     yaw: Floats
     """(P,) turn about +Z, rad."""
     flutter: Floats
-    """(P,) how far a readily fluttering leaf trembles, rad; 0 in calm air."""
+    """(P,) how far a readily fluttering leaf trembles, rad; 0 in calm air. The frame's ``motion`` knows better."""
     extra_look: Ints | None = None
     """(P,) which of the renderer's extra looks each wears; None for the kind's own look."""
 
@@ -52,6 +53,16 @@ class Ground:
 
 
 @dataclass(frozen=True, slots=True)
+class CardMotion:
+    """How all placements are posed, where that is already on the card: nothing of it is uploaded."""
+
+    links: Any
+    """Buffer of ``LINK_POSE`` rows, kind after kind, placement after placement."""
+    speeds: Any
+    """Buffer of the mean wind speed in every placement's crown, m/s, in the same order."""
+
+
+@dataclass(frozen=True, slots=True)
 class Frame:
     """One picture to draw."""
 
@@ -64,7 +75,13 @@ class Frame:
     """s; drives flutter, grass and clouds, never the plants' poses."""
     wind: tuple[float, float] = (0.0, 0.0)
     """Mean horizontal wind, m/s: sways grass and drifts clouds."""
+    motion: CardMotion | None = None
+    """Poses of all plants on the card; None where each kind's ``link`` is uploaded."""
 
 
+LARGEST_FLUTTER = 0.6
+"""How far a readily fluttering leaf trembles in a storm, rad."""
+FLUTTER_SPEED = 5.0
+"""Wind speed at which it trembles with 63 % of that, m/s."""
 FLAT_GROUND = Ground(np.zeros((2, 2), np.float32), (-50.0, -50.0), 100.0)
 """A level plane at z = 0."""

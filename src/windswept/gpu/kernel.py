@@ -40,7 +40,8 @@ class Kernel:
         device: the card.
         module: name of the shader set.
         entry: entry point.
-        resources: buffers and texture views, by the names that shaders give them.
+        resources: buffers and texture views, by the names that shaders give them; what the set declares and the entry
+            point does not use may be missing.
         constants: values of the shader's overrides.
     """
 
@@ -53,7 +54,8 @@ class Kernel:
         constants: dict[str, float] | None = None,
     ) -> None:
         self._device = device
-        self._declared = declared_bindings(module)
+        declared = declared_bindings(module)
+        self._declared = {name: declared[name] for name in declared if name in resources}
         self._layout = group_layout(device, COMPUTE, dict(self._declared.values()))
         self._pipeline = compute_pipeline(device, [self._layout], module, entry, constants)
         self.bind(resources)

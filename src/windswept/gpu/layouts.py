@@ -32,6 +32,7 @@ PLACEMENT = np.dtype(
         ("piece_limit", *COUNTS),
         ("piece_out", *COUNTS),
         ("leaves", *REALS),
+        ("number", *COUNTS),
     ]
 )
 LOOK = np.dtype([("bark", *REALS), ("leaf", *REALS), ("back", *REALS)])

@@ -9,7 +9,8 @@ import numpy as np
 from windswept.gpu import layouts
 from windswept.gpu.buffers import UNIFORM, GrowingBuffer, filled
 from windswept.gpu.draw_list import DrawList
-from windswept.gpu.frame import PosedPlants
+from windswept.gpu.frame import FLUTTER_SPEED, LARGEST_FLUTTER, CardMotion, PosedPlants
+from windswept.gpu.kernel import Kernel
 from windswept.gpu.plant_buffers import PlantArrays
 from windswept.gpu.wiring import COMPUTE, READ, WRITE, bind, buffers_layout, compute_pipeline
 from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
@@ -41,29 +42,45 @@ class Posing:
         self.shifts = GrowingBuffer(device, layouts.STEM_SHIFT)
         self.posed_pieces = GrowingBuffer(device, layouts.POSED_PIECE)
         self.posed_leaves = GrowingBuffer(device, layouts.POSED_LEAF)
+        self._flutter: Kernel | None = None
 
     def upload(self, plants: tuple[PosedPlants, ...], shift_count: int, wanted: DrawList) -> None:
-        """Send the poses of all placements and make room for what the draw list wants.
+        """Send the poses of all placements that are not on the card, and make room for what the draw list wants.
 
         Args:
             plants: placements of each kind.
             shift_count: stems of all placements together.
             wanted: what will be posed.
         """
-        self.links.reserve(sum(posed.link.shape[0] * posed.link.shape[1] for posed in plants))
+        poses = [np.asarray(p.link, np.float32).reshape(-1, 8) for p in plants if p.link is not None]
+        self.links.reserve(sum(map(len, poses)))
         first = 0
-        for posed in plants:
-            poses = np.asarray(posed.link, np.float32).reshape(-1, 8)
-            self.links.write(poses, first)
-            first += len(poses)
+        for rows in poses:
+            self.links.write(rows, first)
+            first += len(rows)
         self.shifts.reserve(shift_count)
         self.placements.reserve(len(wanted.placements))
         self.placements.write(wanted.placements)
         self.posed_pieces.reserve(wanted.piece_count)
         self.posed_leaves.reserve(wanted.leaf_count)
 
-    def encode(self, encoder: Any, frame_group: Any, wanted: DrawList) -> None:
-        """Record the dispatches that pose a draw list."""
+    def encode(
+        self,
+        encoder: Any,
+        frame_group: Any,
+        wanted: DrawList,
+        motion: CardMotion | None,
+        timestamps: dict[str, Any],
+    ) -> None:
+        """Record the dispatches that pose a draw list.
+
+        Args:
+            encoder: records them.
+            frame_group: the frame's uniforms.
+            wanted: what is drawn.
+            motion: poses and winds that are on the card already.
+            timestamps: what the pass is begun with.
+        """
         group = bind(
             self._device,
             self._layout,
@@ -71,14 +88,16 @@ class Posing:
             self.stems,
             self._pieces,
             self._leaves,
-            self.links.buffer,
+            self.links.buffer if motion is None else motion.links,
             self.shifts.buffer,
             self.posed_pieces.buffer,
             self.posed_leaves.buffer,
             self.looks,
         )
         reach = (wanted.stem_most, wanted.stem_most, wanted.piece_most, wanted.leaf_most)
-        stage_pass = encoder.begin_compute_pass()
+        stage_pass = encoder.begin_compute_pass(**timestamps)
+        if motion is not None and len(wanted.placements):
+            self._flutter_kernel(motion).record(stage_pass, -(-len(wanted.placements) // WORKGROUP))
         stage_pass.set_bind_group(0, frame_group)
         stage_pass.set_bind_group(1, group)
         for pipeline, items in zip(self._pipelines, reach, strict=True):
@@ -86,3 +105,12 @@ class Posing:
                 stage_pass.set_pipeline(pipeline)
                 stage_pass.dispatch_workgroups(-(-items // WORKGROUP), len(wanted.placements))
         stage_pass.end()
+
+    def _flutter_kernel(self, motion: CardMotion) -> Kernel:
+        """Kernel that lets leaves tremble by the winds on the card."""
+        resources = {"speeds": motion.speeds, "placements": self.placements.buffer}
+        if self._flutter is None:
+            constants = {"LARGEST_FLUTTER": LARGEST_FLUTTER, "FLUTTER_SPEED": FLUTTER_SPEED}
+            self._flutter = Kernel(self._device, "flutter", "flutter", resources, constants)
+        self._flutter.bind(resources)
+        return self._flutter

@@ -23,6 +23,7 @@ from windswept.gpu.matrices import camera_matrix, frustum_planes, shadow_ball, s
 from windswept.gpu.plant_buffers import plant_arrays
 from windswept.gpu.plant_drawing import PlantDrawing
 from windswept.gpu.posing import Posing
+from windswept.gpu.stage_times import StageTimes
 from windswept.gpu.wiring import ALL_STAGES, DEPTH_FORMAT, bind, buffers_layout
 from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
 from windswept.plants.plant import Look, Plant
@@ -32,6 +33,8 @@ SAMPLES = 4
 SHADOW_REACH = (20.0, 120.0)
 """Least and greatest distance from the camera to which shadows are drawn, m; twice that of its target if between."""
 PICTURE_FORMAT = "rgba8unorm-srgb"
+STAGES = ("curves", "shadows", "picture")
+"""Of a frame, as they are timed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +104,7 @@ class Renderer:
         self._plant_drawing = PlantDrawing(self._device, self.posing, *shared)
         self._backdrop = Backdrop(self._device, ground, *shared)
         self._colour_format = colour_format
+        self._times = StageTimes(self._device, STAGES)
         self.canvas = Canvas(
             self._device, self._frame_layout, self._lighting.layout, (colour_format, SAMPLES)
         )
@@ -152,11 +156,17 @@ class Renderer:
         self._plant_drawing.upload(wanted)
         self._backdrop.upload(np.asarray(frame.camera.eye, np.float64), scene_view.planes)
         encoder = self._device.create_command_encoder()
-        self.posing.encode(encoder, self._frame_group, wanted)
+        around = self._times.around("curves")
+        self.posing.encode(encoder, self._frame_group, wanted, frame.motion, around)
         self._encode_shadows(encoder, wanted)
         self._encode_picture(encoder, view, wanted)
         self._device.queue.submit([encoder.finish()])
         return wanted
+
+    @property
+    def stage_milliseconds(self) -> dict[str, float]:
+        """How long each stage of the last frame took on the card; waits for it, and is empty where it has no clock."""
+        return self._times.read()
 
     def drawn_counts(self, frame: Frame) -> tuple[int, int]:
         """Stem pieces and leaves that a frame's detail comes to, shadows' own included."""
@@ -172,6 +182,7 @@ class Renderer:
                 "depth_load_op": "clear",
                 "depth_store_op": "store",
             },
+            **self._times.around("shadows"),
         )
         render_pass.set_bind_group(0, self._frame_group)
         self._plant_drawing.draw_shadows(render_pass, wanted)
@@ -196,6 +207,7 @@ class Renderer:
                 "depth_load_op": "clear",
                 "depth_store_op": "discard",
             },
+            **self._times.around("picture"),
         )
         render_pass.set_bind_group(0, self._frame_group)
         render_pass.set_bind_group(2, self._lighting.group)

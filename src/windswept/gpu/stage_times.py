@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import wgpu
+from wgpu.backends.wgpu_native import lib
 
 from windswept.gpu.device import TIMESTAMPS
 
@@ -51,9 +52,10 @@ class StageTimes:
         encoder.resolve_query_set(self._queries, 0, 2 * len(self._stages), self._ticks, 0)
         self._device.queue.submit([encoder.finish()])
         ticks = np.frombuffer(self._device.queue.read_buffer(self._ticks), np.uint64).reshape(-1, 2)
-        # wgpu counts in nanoseconds; a card may reset its clock between two stamps.
+        # Cards count in ticks of their own, and may reset their clock between two stamps.
+        tick = 1e-6 * lib.wgpuQueueGetTimestampPeriod(self._device.queue._internal)
         took = {
-            name: 1e-6 * (int(end) - int(start))
+            name: tick * (int(end) - int(start))
             for name, (start, end) in zip(self._stages, ticks, strict=True)
         }
         return {name: took[name] for name in self._stages if name in self._recorded and took[name] >= 0.0}

@@ -27,6 +27,7 @@ SHADER_SETS = {
     "fit_groups": ("motion", "rotation", "joints", "fit_groups"),
     "pose_links": ("motion", "rotation", "joints", "pose_links"),
     "crown": ("motion", "crown"),
+    "flutter": ("types", "flutter"),
 }
 """Files of ``shaders/`` that make up each module, one after the other."""
 

@@ -22,6 +22,7 @@ struct Placement {
     piece_limit: vec4u,   // pieces up to each bucket's end, counted from the placement's first
     piece_out: vec4u,     // first posed piece of the placement in each bucket
     leaves: vec4f,        // leaves drawn; rank at which leaves end; ranks over which they shrink; scale
+    number: vec4u,        // which of all placements this is; 0; 0; 0
 }
 
 struct Look {

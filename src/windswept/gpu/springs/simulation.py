@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from windswept.gpu import layouts
 from windswept.gpu.device import shared_device
 from windswept.gpu.failures import card_errors
+from windswept.gpu.frame import CardMotion
 from windswept.gpu.springs.air import air_rows
 from windswept.gpu.springs.card_state import CardState
 from windswept.gpu.springs.kinds import GrownKind
@@ -91,22 +92,19 @@ class GpuSimulation:
                 self.step_count += count
         return self
 
-    def pose_on_card(self) -> Any:
-        """Poses every link of every placement as of now.
-
-        Returns:
-            Buffer of ``LINK_POSE`` rows, kind after kind, placement after placement.
-        """
+    def motion(self) -> CardMotion:
+        """Poses every link of every placement as of now, for a ``Frame``: valid until the simulation advances."""
         with card_errors("posing plants"):
             self.card.write_moment(self._moment(0, 0))
             self._record(self._walk.pose)
-        return self.card.resources["poses"]
+        return CardMotion(self.card.resources["poses"], self.card.resources["speeds"])
 
     @property
     def pose(self) -> list[Pose]:
         """Where every link of every kind is at this moment, read back."""
-        self.pose_on_card()
-        rows = self.card.read("poses", "<f4").reshape(-1, 8)
+        self.motion()
+        with card_errors("reading poses"):
+            rows = self.card.read("poses", "<f4").reshape(-1, 8)
         poses, first = [], 0
         for kind in self.kinds:
             shape = (kind.placements.count, kind.model.link_count, 8)
