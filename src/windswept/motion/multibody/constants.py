@@ -18,7 +18,7 @@ MAX_ANGLE = 1.5
 """Where a joint stops, rad: wood that is bent so far at one joint has long left the linear law."""
 REST_THRESHOLD = 1e-9
 """Angles, rates and velocities below this are put to rest: dying motion must not end in denormals."""
-SETTLING = 0.5
+SETTLING = 0.3
 """How fast links forget what they carry that no motion of their joints accounts for, 1/s."""
 MOST_WARPED = 2.0
 """Angle of a plant's first mode in a step, rad, beyond which its frequency is no longer kept (Nyquist is pi)."""
