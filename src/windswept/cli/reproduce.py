@@ -3,27 +3,51 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
+from typing import Any
 
 import click
 
 
 @click.command("reproduce")
-@click.argument("paper", type=click.Choice(["beaudoin"]))
+@click.argument("paper", type=click.Choice(["beaudoin", "skjermo"]))
 @click.option(
-    "--links", type=click.IntRange(1000, 80_000), default=77_141, show_default=True, help="Of the tree."
+    "--links",
+    type=click.IntRange(1000, 80_000),
+    default=77_141,
+    show_default=True,
+    help="Of Beaudoin's tree.",
 )
+@click.option("-o", "--output", help="Folder for Skjermo's pictures.")
 @click.option("--json", "as_json", is_flag=True, help="A JSON list of rows.")
-def command(paper: str, links: int, as_json: bool) -> None:
+def command(paper: str, links: int, output: str | None, as_json: bool) -> None:
     """Make a founding paper's table beside ours.
 
     Example: windswept reproduce beaudoin
     """
-    from windswept.studies.beaudoin import beaudoin
 
-    rows = beaudoin(links, say=lambda line: click.echo(line, err=True))
+    def say(line: str) -> None:
+        click.echo(line, err=True)
+
+    if paper == "beaudoin":
+        from windswept.studies.beaudoin import beaudoin
+
+        rows, table = beaudoin(links, say=say), _beaudoin_table
+    else:
+        from windswept.forms.files import check_place
+        from windswept.studies.skjermo import skjermo
+
+        folder = None if output is None else Path(output)
+        if folder is not None:
+            check_place(folder / "skjermo_gust.png", (".png",))
+        rows, table = skjermo(folder, say=say), _skjermo_table
     if as_json:
         click.echo(json.dumps(rows))
-        return
+    else:
+        table(rows)
+
+
+def _beaudoin_table(rows: list[Any]) -> None:
     click.echo("thesis, figure 6           ours                                    thesis' merges")
     click.echo("branches   fps  times  |  links   steps/s   times   p95 m   rms  |  p95 m   rms")
     for row in rows:
@@ -32,4 +56,15 @@ def command(paper: str, links: int, as_json: bool) -> None:
             f" {row['branches']:>6} {row['steps_per_second']:>9.0f} {row['speedup']:>7.1f}"
             f" {row['p95_m']:>7.3f} {row['rms_over_motion']:>5.1%}  |"
             f" {row['printed_p95_m']:>6.3f} {row['printed_rms_over_motion']:>5.1%}"
+        )
+
+
+def _skjermo_table(rows: list[Any]) -> None:
+    click.echo("what    mode     branches   vertices  |  paper/s     ours/s   gap p95 m  gap max m  on")
+    for row in rows:
+        paper = "" if row["paper_per_second"] is None else f"{row['paper_per_second']:.0f}"
+        gaps = (f"{row[name]:.1e}" if name in row else "" for name in ("gap_p95_m", "gap_max_m"))
+        click.echo(
+            f"{row['what']:<7} {row['mode']:<8} {row['branches']:>8} {row['vertices'] or '':>10}  |"
+            f" {paper:>8} {row['per_second']:>10.4g}   {next(gaps):>9}  {next(gaps):>9}  {row['on']}"
         )
