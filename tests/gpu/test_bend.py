@@ -23,7 +23,7 @@ from windswept.gpu.bend.branch_rows import branch_rows
 from windswept.gpu.buffers import filled
 from windswept.gpu.device import is_software
 from windswept.gpu.frame import Camera, Frame, Ground, PosedPlants
-from windswept.gpu.layouts import COUNTS, REALS
+from windswept.gpu.layouts import COUNTS, GUST, REALS, WAVE
 from windswept.gpu.plant_buffers import plant_arrays
 from windswept.gpu.renderer import Renderer
 from windswept.gpu.wiring import COMPUTE, READ, WRITE, bind, buffers_layout, shader_text
@@ -75,13 +75,12 @@ def grove():
 
 
 def test_structs_agree_with_the_shader():
-    source = (files("windswept.gpu") / "shaders" / "bend_types.wgsl").read_text()
+    shaders = files("windswept.gpu") / "shaders"
+    source = "".join((shaders / f"{name}.wgsl").read_text() for name in ("bend_types", "bend_air"))
     numpy_types = {
         "Branch": layouts.BRANCH,
         "BranchLook": layouts.BRANCH_LOOK,
         "BentBranch": layouts.BENT_BRANCH,
-        "BreezeWave": layouts.BREEZE_WAVE,
-        "BreezeGust": layouts.BREEZE_GUST,
         "Breeze": layouts.BREEZE,
         "BendPass": layouts.BEND_PASS,
     }
@@ -89,7 +88,7 @@ def test_structs_agree_with_the_shader():
     def as_numpy(kind):
         array = re.fullmatch(r"array<(\w+), (\d+)>", kind)
         if array:
-            return numpy_types[array[1]], (int(array[2]),)
+            return {"Wave": WAVE, "Gust": GUST}[array[1]], (int(array[2]),)
         return {"vec4f": REALS, "vec4u": COUNTS}[kind]
 
     structs = dict(re.findall(r"struct (\w+) \{(.*?)\n\}", source, re.DOTALL))

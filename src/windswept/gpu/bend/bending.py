@@ -61,11 +61,9 @@ class Bending:
         self._profile: Profile | None = None
         self._breeze = device.create_buffer(size=layouts.BREEZE.itemsize, usage=UNIFORM)
         self._passes = filled(device, _pass_rows(branches, weights), UNIFORM)
-        nothing = buffers_layout(device, COMPUTE)
         layout = buffers_layout(device, COMPUTE, READ, READ, WRITE, UNIFORM_BINDING, DYNAMIC_UNIFORM)
-        self._nothing = bind(device, nothing)
-        self._lagged = compute_pipeline(device, [nothing, layout], "bend", "lagged")
-        self._ordered = compute_pipeline(device, [nothing, layout], "bend", "ordered")
+        self._lagged = compute_pipeline(device, [layout], "bend", "lagged")
+        self._ordered = compute_pipeline(device, [layout], "bend", "ordered")
         now = {"buffer": self._passes, "offset": 0, "size": layouts.BEND_PASS.itemsize}
         self._groups = [
             bind(device, layout, self.rest, self._bent[1 - new], self._bent[new], self._breeze, now)
@@ -112,10 +110,9 @@ class Bending:
         encoder = self._device.create_command_encoder()
         compute_pass = encoder.begin_compute_pass()
         compute_pass.set_pipeline(pipeline)
-        compute_pass.set_bind_group(0, self._nothing)
         for slot, count in passes:
             groups = -(-int(count) // WORKGROUP)
-            compute_pass.set_bind_group(1, self._groups[self._newest], [slot * UNIFORM_STRIDE])
+            compute_pass.set_bind_group(0, self._groups[self._newest], [slot * UNIFORM_STRIDE])
             compute_pass.dispatch_workgroups(min(groups, ROW_OF_GROUPS), -(-groups // ROW_OF_GROUPS))
         compute_pass.end()
         self._device.queue.submit([encoder.finish()])

@@ -1,10 +1,10 @@
-"""NumPy types of every struct in ``shaders/bend_types.wgsl``, field for field; a test compares the two."""
+"""NumPy types of every struct in ``bend_types.wgsl`` and ``bend_air.wgsl``, field for field; a test compares them."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from windswept.gpu.layouts import COUNTS, REALS
+from windswept.gpu.layouts import COUNTS, GUST, REALS, WAVE
 
 WAVE_LIMIT, GUST_LIMIT = 16, 8
 """Waves and gusts that blow at one time, at most: lengths of the arrays in ``Breeze``."""
@@ -21,14 +21,12 @@ BRANCH = np.dtype(
 )
 BRANCH_LOOK = np.dtype([("origin", *REALS), ("shade", *REALS)])
 BENT_BRANCH = np.dtype([("p0", *REALS), ("p1", *REALS), ("p2", *REALS), ("p3", *REALS)])
-BREEZE_WAVE = np.dtype([("phase", *REALS), ("push", *REALS)])
-BREEZE_GUST = np.dtype([("place", *REALS), ("shape", *REALS), ("fade", *REALS)])
 BREEZE = np.dtype(
     [
         ("mean", *REALS),
         ("counts", *COUNTS),
-        ("waves", BREEZE_WAVE, (WAVE_LIMIT,)),
-        ("gusts", BREEZE_GUST, (GUST_LIMIT,)),
+        ("waves", WAVE, (WAVE_LIMIT,)),
+        ("gusts", GUST, (GUST_LIMIT,)),
     ]
 )
 BEND_PASS = np.dtype([("rows", *COUNTS), ("weights", *REALS)])

@@ -1,11 +1,10 @@
 // Skjermo's first pass: the wind at a branch's tip bends its Bezier curve on its parent's; one thread a branch.
-// motion/bend_plain.py is the same in NumPy. Set: types + bend_types + bend_frame + bend_air + bend.
+// motion/bend_plain.py is the same in NumPy. Set: motion + air + bend_types + bend_frame + bend_air + bend.
 
-@group(1) @binding(0) var<storage, read> branches: array<Branch>;
-@group(1) @binding(1) var<storage, read> before: array<BentBranch>;
-@group(1) @binding(2) var<storage, read_write> after: array<BentBranch>;
-@group(1) @binding(3) var<uniform> breeze: Breeze;
-@group(1) @binding(4) var<uniform> bend_pass: BendPass;
+@group(0) @binding(0) var<storage, read> branches: array<Branch>;
+@group(0) @binding(1) var<storage, read> before: array<BentBranch>;
+@group(0) @binding(2) var<storage, read_write> after: array<BentBranch>;
+@group(0) @binding(4) var<uniform> bend_pass: BendPass;
 
 const FOLD = -0.9;
 

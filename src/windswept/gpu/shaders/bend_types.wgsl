@@ -20,26 +20,3 @@ struct BentBranch {
     p2: vec4f,   // .w: z of S0
     p3: vec4f,   // .w: 0
 }
-
-struct BreezeWave {
-    phase: vec4f,   // turns per metre of x and y; turns now at the origin; bias
-    push: vec4f,    // x, y in m/s; power; mean
-}
-
-struct BreezeGust {
-    place: vec4f,   // x, y of the front's start, m; its direction
-    shape: vec4f,   // way of the front so far, m; strength, m/s; per rise length, 1/m; where the decay starts, m
-    fade: vec4f,    // per decay length, 1/m; per width, 1/m; 0; 0
-}
-
-struct Breeze {
-    mean: vec4f,     // x, y in m/s; 0; 0
-    counts: vec4u,   // waves; gusts; 0; 0
-    waves: array<BreezeWave, 16>,
-    gusts: array<BreezeGust, 8>,
-}
-
-struct BendPass {
-    rows: vec4u,      // first branch of the pass; its end; 0; 0
-    weights: vec4f,   // share of b that turns the second leg; what the third gets more; 0; 0
-}

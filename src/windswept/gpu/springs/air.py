@@ -31,8 +31,8 @@ def air_rows(wind: Wind, terrain: Terrain, start: float, stop: float) -> AirRows
 
     Phases and ways are taken in double precision here, so that hours do not wear out the card's single precision.
     """
-    waves = [_waves(wind, time) for time in (start, stop)]
-    gusts = [_gusts(wind, time) for time in (start, stop)]
+    waves = [card_waves(wind, time) for time in (start, stop)]
+    gusts = [card_gusts(wind, time) for time in (start, stop)]
     ends = np.zeros(2, layouts.AIR)
     profile = wind.profile
     last_cell = len(terrain.heights) - 2
@@ -49,7 +49,8 @@ def air_rows(wind: Wind, terrain: Terrain, start: float, stop: float) -> AirRows
     return AirRows(ends, np.concatenate(waves), np.concatenate(gusts))
 
 
-def _waves(wind: Wind, time: float) -> Rows:
+def card_waves(wind: Wind, time: float) -> Rows:
+    """``WAVE`` rows of the waves that blow at a time, s."""
     turns_x, turns_y, turns, push_x, push_y, bias, power, mean = wave_rows(wind, time).T
     rows = np.zeros(len(turns), layouts.WAVE)
     rows["phase"] = np.stack([turns_x, turns_y, turns, bias], axis=1)
@@ -57,7 +58,8 @@ def _waves(wind: Wind, time: float) -> Rows:
     return rows
 
 
-def _gusts(wind: Wind, time: float) -> Rows:
+def card_gusts(wind: Wind, time: float) -> Rows:
+    """``GUST`` rows of all gusts at a time, s."""
     column = dict(zip(GUST_COLUMNS, wind.gust_rows.T, strict=True))
     rows = np.zeros(len(wind.gust_rows), layouts.GUST)
     place = ("position_x", "position_y", "direction_x", "direction_y")
