@@ -16,7 +16,7 @@
 
 const MOST_ROUNDS = 8u;
 // Pull of the pressure towards none, over that of its joints: directions that they hardly feel must not wander.
-const REGULAR = 1e-2;
+const REGULAR = 1e-3;
 const CLOSE = 1e-4;
 
 // What the joints ask of a change of the pressure: normal matrix, right side of the pressure and of its rate.
@@ -97,7 +97,8 @@ fn fitted(lane: u32, group: Group, carrier: u32, kind: Kind, first: u32) -> mat2
     var pressure = vec3f(0.0);
     var rate = vec3f(0.0);
     for (var round = 0u; round < MOST_ROUNDS; round++) {
-        var part: Equations;
+        // Written out: a variable without a value is not cleared again at every turn of a loop (naga 27).
+        var part = Equations(vec3f(0.0), vec3f(0.0), vec3f(0.0), vec3f(0.0));
         for (var i = group.rows.y + lane; i < group.rows.y + group.rows.z; i += 64u) {
             let parent = links[kind.joints.x + i].rows.x;
             var q_parent = vec4f(0.0, 0.0, 0.0, 1.0);

@@ -37,36 +37,44 @@ fn share_of(motion: Motion) -> f32 {
     return x * x * (3.0 - 2.0 * x);
 }
 
-fn pose_placement(rung: Rung, motion: Motion, placement: u32) {
+// Notes the angles of all joints as a level has them, in its own rotations, over what is noted already.
+fn note_angles(rung: Rung, slot: u32, first: u32, share: f32) {
+    let kind = kinds[rung.links.w];
+    let column = column_of(rung, slot);
+    for (var i = 0u; i < kind.joints.y; i++) {
+        let link = links[kind.joints.x + i];
+        let q_parent = rotation_of(first, link.rows.x);
+        let angles = angles_at(rung, column, kind, i, first, q_parent);
+        let turn = angles.x * link.axis_1.xyz + angles.y * link.axis_2.xyz;
+        let row = 2u * (first + i);
+        poses[row] = vec4f(mix(poses[row].xy, angles, share), 0.0, 0.0);
+        poses[row + 1u] = multiply(q_parent, from_rotation_vector(turn));
+    }
+}
+
+// Poses a placement from one level's angles, or from those noted of two.
+fn pose_placement(rung: Rung, motion: Motion, first: u32, is_noted: bool) {
     let kind = kinds[rung.links.w];
     let column = column_of(rung, motion.at.y);
-    let first = kind.joints.z + (placement - kind.ladder.z) * kind.joints.y;
-    var before = rung;
-    var column_before = column;
-    var share = 1.0;
-    if motion.origin.x != NONE {
-        before = rungs[motion.origin.x];
-        column_before = column_of(before, motion.origin.y);
-        share = share_of(motion);
-    }
     var position = vec3f(0.0);
     var rotation = vec4f(0.0, 0.0, 0.0, 1.0);
     for (var i = 0u; i < kind.joints.y; i++) {
         let link = links[kind.joints.x + i];
+        let row = 2u * (first + i);
         // A link mostly follows the one before it, whose pose is still at hand.
         if link.rows.x == NONE {
             position = vec3f(0.0);
             rotation = vec4f(0.0, 0.0, 0.0, 1.0);
         } else if link.rows.x + 1u != i {
             position = poses[2u * (first + link.rows.x)].xyz;
-            rotation = poses[2u * (first + link.rows.x) + 1u];
+            rotation = rotation_of(first, link.rows.x);
         }
-        var angles = angles_at(rung, column, kind, i, first, rotation);
-        if share < 1.0 { angles = mix(angles_at(before, column_before, kind, i, first, rotation), angles, share); }
+        var angles = poses[row].xy;
+        if !is_noted { angles = angles_at(rung, column, kind, i, first, rotation); }
         position += rotate(rotation, link.foot.xyz);
         rotation = multiply(rotation, from_rotation_vector(angles.x * link.axis_1.xyz + angles.y * link.axis_2.xyz));
-        poses[2u * (first + i)] = vec4f(position, 0.0);
-        poses[2u * (first + i) + 1u] = rotation;
+        poses[row] = vec4f(position, 0.0);
+        poses[row + 1u] = rotation;
     }
 }
 
@@ -80,6 +88,15 @@ fn pose_block(
         let placement = members[rungs[block.x].probes.w + block.y * LANES + lane];
         let motion = motions[placement];
         // A placement between two levels is posed by the one that it goes to.
-        if motion.at.x == block.x { pose_placement(rungs[block.x], motion, placement); }
+        if motion.at.x != block.x { continue; }
+        let rung = rungs[block.x];
+        let kind = kinds[rung.links.w];
+        let first = kind.joints.z + (placement - kind.ladder.z) * kind.joints.y;
+        let is_blending = motion.origin.x != NONE;
+        if is_blending {
+            note_angles(rungs[motion.origin.x], motion.origin.y, first, 1.0);
+            note_angles(rung, motion.at.y, first, share_of(motion));
+        }
+        pose_placement(rung, motion, first, is_blending);
     }
 }
