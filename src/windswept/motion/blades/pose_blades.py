@@ -67,14 +67,25 @@ def carried(blades: Blades, parents: BladePose | None) -> tuple[Floats, Floats]:
 def _pose(table, length, index, lean, size, base, frame, joint, frames):  # type: ignore[no-untyped-def]
     for i in prange(len(index)):
         b = index[i]
-        turns = np.empty((len(length), 2), np.float32)
-        look_up(table, lean[b], turns)
-        axis, normal, side = frame[b, 0].copy(), frame[b, 1].copy(), frame[b, 2].copy()
-        joint[b, 0] = base[b]
-        for section in range(len(length)):
-            cosine, sine = np.cos(turns[section, 0]), np.sin(turns[section, 0])
-            axis, normal = axis * cosine + normal * sine, normal * cosine - axis * sine
-            cosine, sine = np.cos(turns[section, 1]), np.sin(turns[section, 1])
-            axis, side = axis * cosine + side * sine, side * cosine - axis * sine
-            frames[b, section, 0], frames[b, section, 1], frames[b, section, 2] = axis, normal, side
-            joint[b, section + 1] = joint[b, section] + size[b] * length[section] * axis
+        _pose_one(table, length, lean[b], size[b], base[b], frame[b], joint[b], frames[b])
+
+
+@njit(cache=True)
+def _pose_one(table, length, lean, size, base, frame, joint, frames):  # type: ignore[no-untyped-def]
+    """Writes joints (K + 1, 3) and frames (K, 3, 3) of one blade."""
+    turns, f = np.empty((len(length), 2), np.float32), np.empty((3, 3), np.float32)
+    look_up(table, lean, turns)
+    for a in range(3):
+        joint[0, a] = base[a]
+        f[0, a], f[1, a], f[2, a] = frame[0, a], frame[1, a], frame[2, a]
+    for section in range(len(length)):
+        flat_cosine, flat_sine = np.cos(turns[section, 0]), np.sin(turns[section, 0])
+        side_cosine, side_sine = np.cos(turns[section, 1]), np.sin(turns[section, 1])
+        for a in range(3):
+            bent = f[0, a] * flat_cosine + f[1, a] * flat_sine
+            f[1, a] = f[1, a] * flat_cosine - f[0, a] * flat_sine
+            f[0, a] = bent * side_cosine + f[2, a] * side_sine
+            f[2, a] = f[2, a] * side_cosine - bent * side_sine
+            joint[section + 1, a] = joint[section, a] + size * length[section] * f[0, a]
+            for k in range(3):
+                frames[section, k, a] = f[k, a]

@@ -161,7 +161,11 @@ def _step_tile(k, c, s, wind, push, substeps):  # type: ignore[no-untyped-def]
         across = _swing(target[1], lean[1], rate[1], flat)
         aside = _swing(target[2], lean[2], rate[2], side)
         lean, rate = (along[0], across[0], aside[0]), (along[1], across[1], aside[1])
-        bent = rest[0] + lean[0], rest[1] + lean[1], rest[2] + lean[2]
+        bent = add_scaled(rest, lean, _ONE)
+        # No blade leans further than its length: there its swing ends. Within, nothing is changed, not even rounded.
+        shorter = at_most(_ONE / sqrt(dot(bent, bent) + _TINY), _ONE)
+        lean = add_scaled(lean, bent, shorter - _ONE)
+        rate = rate[0] * shorter, rate[1] * shorter, rate[2] * shorter
         pulled = at_most(bent[0], _F(0.0))
         bending = pulled * pulled + bent[1] * bent[1] + bent[2] * bent[2]
         broken = choose(within(bending, k[BREAKING]), broken, zero + _ONE)

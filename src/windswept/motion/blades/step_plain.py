@@ -69,8 +69,10 @@ def step_plain(
     xx, xv, vx, vv = np.stack([steps[0], steps[0], steps[1]], axis=2).transpose(1, 0, 2)
     y = state.lean - target
     lean, rate = target + xx * y + xv * state.rate, vx * y + vv * state.rate
-    bending = bending_lean(lean_of_load(weight) + lean)
-    return PlainState(lean, rate, state.broken | (bending > kind.breaking_lean))
+    bent = lean_of_load(weight) + lean
+    shorter = np.minimum(1.0 / np.linalg.norm(bent, axis=1, keepdims=True), 1.0)
+    broken = state.broken | (bending_lean(bent) > kind.breaking_lean)
+    return PlainState(lean + (shorter - 1.0) * bent, shorter * rate, broken)
 
 
 def sample_plain(field: PackedField, place: Doubles) -> tuple[Doubles, Doubles]:
