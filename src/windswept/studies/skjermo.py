@@ -154,8 +154,9 @@ def _drawn(trees: int) -> dict[str, Any]:
         grids=ONE_GRID,
         lit="_lit",
     )
-    reach = 6.0 * across
-    camera, wind = Camera((0.0, -12.0 - 0.6 * reach, 6.0), (0.0, 0.3 * reach, 5.0), 0.9), four_waves()
+    # From above grass is too far to be drawn: what is timed is branches, their shadows and the ground.
+    reach, wind = 6.0 * across, four_waves()
+    camera = Camera((0.0, -40.0 - 0.5 * reach, 62.0), (0.0, 0.5 * reach, 5.0), 0.6)
 
     def frame() -> None:
         scene.bending.step_lagged(wind, 1.0)
