@@ -54,7 +54,7 @@ def test_the_push_is_gone_with_the_ball_and_its_air_soon_after() -> None:
         step_field(field, 1.0 / 30.0, (BALL,))
     assert not field.push.any()
     assert field.velocity.any()
-    step_field(field, 6.0)
+    step_field(field, 8.0)
     assert not field.velocity.any()
 
 

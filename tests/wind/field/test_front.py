@@ -6,6 +6,7 @@ from numba import config, set_num_threads
 
 from windswept.errors import InputError
 from windswept.wind.field import Cylinder, FieldPlan, Grid, Line, Uniform, start_field, step_field
+from windswept.wind.field.bodies import REST
 from windswept.wind.gusts import Gust
 from windswept.wind.mean import MeanWind, profile_factor
 from windswept.wind.wind import Wind
@@ -68,7 +69,8 @@ def test_departures_die_at_the_stated_rate() -> None:
     for field in (lasting, dying):
         step_field(field, 2.0)
     assert np.abs(lasting.departure).max() > 0.5
-    np.testing.assert_allclose(dying.departure, np.exp(-1.0) * lasting.departure, atol=2e-4)
+    # Each of 40 steps may put what is below REST to rest.
+    np.testing.assert_allclose(dying.departure, np.exp(-1.0) * lasting.departure, atol=40.0 * REST)
 
 
 @pytest.mark.parametrize(("speed", "mean"), [(12.0, 4.0), (6.0, 0.0), (9.0, 9.0)])

@@ -23,8 +23,8 @@ SHEDDING = 2.0
 """A body takes air with it at this rate times speed over radius: within the time in which the air passes it."""
 STILL = 1e-3
 """Slower air leaves no wake, m/s."""
-REST = _F(1e-4)
-"""Slower departures are put to rest, m/s."""
+REST = _F(1e-5)
+"""Components of the departure below this are put to rest, m/s."""
 BODY_COLUMNS = (
     *("x_0", "y_0", "x_1", "y_1", "low", "high", "radius", "roundness"),
     *("pressure", "cover", "v_x", "v_y", "v_z", "shelter"),
@@ -138,6 +138,7 @@ def settle(rows, boxes, frame, seconds, rain, limit, departure, velocity, push, 
             if boxes[r, 0] <= i <= boxes[r, 1]:
                 _act(rows[r], boxes[r], frame, i, seconds, departure[i], velocity[i], push[i])
         slab, air = departure[i].reshape(-1, WIDTH), velocity[i].reshape(-1, 3)
+        _put_to_rest(departure[i].reshape(-1))
         clamped[i] = _add_up(slab, air, limit)
         if clamped[i] > 0:
             _hold_back(slab, air, limit)
@@ -186,18 +187,24 @@ def _drag_along(row, own, inside, seconds, departure, velocity):  # type: ignore
 
 
 @njit(cache=True, fastmath=FAST_MATH)
+def _put_to_rest(numbers):  # type: ignore[no-untyped-def]
+    """Very small numbers become 0: what dies away must not end in denormals."""
+    for n in range(len(numbers)):
+        numbers[n] = _F(0.0) if abs(numbers[n]) < REST else numbers[n]
+
+
+@njit(cache=True, fastmath=FAST_MATH)
 def _add_up(departure, velocity, limit):  # type: ignore[no-untyped-def]
     """Velocity plus departure in the nodes of one slab; returns how many are out of bounds."""
-    count = 0
+    count = np.int32(0)
     for n in range(len(velocity)):
-        e, f, g = departure[n, 0], departure[n, 1], departure[n, 2]
-        # Below this it is put to rest: what dies away must not end in denormals.
-        rests = e * e + f * f + g * g < REST * REST
-        e, f, g = _F(0.0) if rests else e, _F(0.0) if rests else f, _F(0.0) if rests else g
-        departure[n, 0], departure[n, 1], departure[n, 2] = e, f, g
-        u, v, w = velocity[n, 0] + e, velocity[n, 1] + f, velocity[n, 2] + g
+        u, v, w = (
+            velocity[n, 0] + departure[n, 0],
+            velocity[n, 1] + departure[n, 1],
+            velocity[n, 2] + departure[n, 2],
+        )
         velocity[n, 0], velocity[n, 1], velocity[n, 2] = u, v, w
-        count += 0 if u * u + v * v + w * w <= limit * limit else 1
+        count += np.int32(0) if u * u + v * v + w * w <= limit * limit else np.int32(1)
     return count
 
 

@@ -21,8 +21,9 @@ from windswept.wind.field.obstacles import Obstacle, openness
 
 Reals = NDArray[np.float64]
 
-FELT = 0.005
-"""Columns of nodes where no entry of the tensor differs from free air's by more are left as free air."""
+FELT = 0.02
+"""Columns of nodes where no entry of the tensor differs from free air's by more are left as free air; where one
+differs by less than twice that, the deflection fades out."""
 TOLERANCE = 1e-6
 """Of the solver: residual over source."""
 MOST_SWEEPS = 2000
@@ -65,7 +66,11 @@ def deflect(grid: Grid, obstacles: Sequence[Obstacle]) -> Deflection:
     tensor = np.stack([node_velocity(flux, e) for flux, e in zip(fluxes, ambient, strict=True)], axis=1)
     # Nor does the ambient air of ground, top and borders pass a solid.
     tensor[..., passes == 0.0] = 0.0
-    felt = np.abs(tensor - ambient[:, :, None, None, None]).max(axis=(0, 1, 4)) > FELT
+    free = ambient[:, :, None, None, None]
+    departs = np.abs(tensor - free).max(axis=(0, 1, 4))
+    felt = departs > FELT
+    fade = np.clip(departs / FELT - 1.0, 0.0, 1.0)[:, :, None]
+    tensor = free + fade * (tensor - free)
     column = np.where(felt, np.cumsum(felt).reshape(nx, ny) - 1, -1).astype(np.int32)
     rows = np.concatenate([tensor.reshape(9, nx, ny, nz), (passes > 0.0)[None]])
     return Deflection(column, np.ascontiguousarray(rows[:, felt].transpose(1, 0, 2), dtype=np.float32))

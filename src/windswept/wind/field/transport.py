@@ -38,19 +38,24 @@ def transport(before, ambient, profile, flow, column, tensor, shift, keep, after
     nx, ny, nz = before.shape[:3]
     rows_before, rows_after = before.reshape(-1), after.reshape(-1)
     for i in prange(nx):
-        air = np.empty((3, ny, nz), np.float32)
+        air, undisturbed = np.empty((3, ny, nz), np.float32), np.empty((3, nz), np.float32)
         _blow(ambient[i], profile, air)
         if flow.size > 0:
             air += flow[:, i]
         for j in range(ny):
             if column[i, j] >= 0:
-                _turn(tensor[column[i, j]], air[:, j])
+                undisturbed[:] = air[:, j]
+                for c in range(3):
+                    _turn(tensor[column[i, j], 3 * c : 3 * c + 3], undisturbed, air[c, j])
         flat = air.reshape(3, -1)
         _interleave(flat, velocity[i].reshape(-1, 3))
         if 0 < i < nx - 1:
-            corner, fraction = np.empty(ny * nz, np.int32), np.empty((3, ny * nz), np.float32)
-            _origin(i, before.shape, flat, shift, corner, fraction)
-            _carry(rows_before, before.shape, corner, fraction, keep, i * ny * nz, rows_after)
+            cell, fraction = np.empty((3, ny * nz), np.int32), np.empty((3, ny * nz), np.float32)
+            place = np.full((3, ny, nz), _F(i), np.float32)
+            _count_nodes(place)
+            for c in range(3):
+                _origin(flat[c], shift[c], before.shape[c], place[c].reshape(-1), cell[c], fraction[c])
+            _carry(rows_before, before.shape, cell, fraction, keep, i * ny * nz, rows_after)
             for j in range(ny):
                 if column[i, j] >= 0:
                     _keep_out(tensor[column[i, j]], after[i, j])
@@ -68,13 +73,12 @@ def _blow(ambient, profile, air):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, fastmath=FAST_MATH)
-def _turn(tensor, air):  # type: ignore[no-untyped-def]
-    """A column's air behind, beside and in front of obstacles: tensor x ambient."""
-    for k in range(air.shape[1]):
-        u, v, w = air[0, k], air[1, k], air[2, k]
-        air[0, k] = tensor[0, k] * u + tensor[1, k] * v + tensor[2, k] * w
-        air[1, k] = tensor[3, k] * u + tensor[4, k] * v + tensor[5, k] * w
-        air[2, k] = tensor[6, k] * u + tensor[7, k] * v + tensor[8, k] * w
+def _turn(tensor, ambient, air):  # type: ignore[no-untyped-def]
+    """One component of a column's air behind, beside and in front of obstacles: a row of the tensor x ambient."""
+    xx, xy, xz = tensor[0], tensor[1], tensor[2]
+    u, v, w = ambient[0], ambient[1], ambient[2]
+    for k in range(len(air)):
+        air[k] = xx[k] * u[k] + xy[k] * v[k] + xz[k] * w[k]
 
 
 @njit(cache=True, fastmath=FAST_MATH)
@@ -87,26 +91,28 @@ def _interleave(air, velocity):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, fastmath=FAST_MATH)
-def _origin(i, shape, air, shift, corner, fraction):  # type: ignore[no-untyped-def]
-    """Where a slab's air was before the step: lowest corner of the cell, and how far into it (semi-Lagrangian)."""
-    nx, ny, nz = _I(shape[0]), _I(shape[1]), _I(shape[2])
-    x_here, last = _F(i), (_F(nx - _I(1)), _F(ny - _I(1)), _F(nz - _I(1)))
-    for j in range(shape[1]):
-        for k in range(shape[2]):
-            n = j * shape[2] + k
-            x = min(max(x_here - air[0, n] * shift[0], _F(0.0)), last[0])
-            y = min(max(_F(j) - air[1, n] * shift[1], _F(0.0)), last[1])
-            z = min(max(_F(k) - air[2, n] * shift[2], _F(0.0)), last[2])
-            # A place that is no number is taken as the first cell: what comes of it is counted later.
-            a = max(min(_I(x), nx - _I(2)), _I(0))
-            b = max(min(_I(y), ny - _I(2)), _I(0))
-            c = max(min(_I(z), nz - _I(2)), _I(0))
-            fraction[0, n], fraction[1, n], fraction[2, n] = x - _F(a), y - _F(b), z - _F(c)
-            corner[n] = (a * ny + b) * nz + c
+def _count_nodes(place):  # type: ignore[no-untyped-def]
+    """Index along y and z of the nodes of a slab."""
+    for j in range(place.shape[1]):
+        for k in range(place.shape[2]):
+            place[1, j, k] = _F(j)
+            place[2, j, k] = _F(k)
 
 
 @njit(cache=True, fastmath=FAST_MATH)
-def _carry(rows, shape, corner, fraction, keep, first, out):  # type: ignore[no-untyped-def]
+def _origin(air, shift, count, place, cell, fraction):  # type: ignore[no-untyped-def]
+    """Where a slab's air was before the step, along one axis: the cell, and how far into it (semi-Lagrangian)."""
+    last, last_cell = _F(count - 1), _I(count - 2)
+    for n in range(len(air)):
+        origin = min(max(place[n] - air[n] * shift, _F(0.0)), last)
+        # A place that is no number is taken as the first cell: what comes of it is counted later.
+        below = max(min(_I(origin), last_cell), _I(0))
+        cell[n] = below
+        fraction[n] = origin - _F(below)
+
+
+@njit(cache=True, fastmath=FAST_MATH)
+def _carry(rows, shape, cell, fraction, keep, first, out):  # type: ignore[no-untyped-def]
     """Trilinear departure where a slab's air was, but at borders and top."""
     east, north, up = _U(shape[1] * shape[2]), _U(shape[2]), _U(1)
     for j in range(1, shape[1] - 1):
@@ -117,7 +123,7 @@ def _carry(rows, shape, corner, fraction, keep, first, out):  # type: ignore[no-
             w11 = u * v
             w10, w01 = u - w11, v - w11
             w00 = _F(1.0) - u - w01
-            sw = _U(corner[n])
+            sw = _U((cell[0, n] * shape[1] + cell[1, n]) * shape[2] + cell[2, n])
             nw, se = sw + north, sw + east
             ne = se + north
             corners = (sw, nw, se, ne, sw + up, nw + up, se + up, ne + up)
@@ -129,6 +135,6 @@ def _carry(rows, shape, corner, fraction, keep, first, out):  # type: ignore[no-
 @njit(cache=True, fastmath=FAST_MATH)
 def _keep_out(tensor, departure):  # type: ignore[no-untyped-def]
     """Nothing departs inside a solid."""
-    for k in range(len(departure) - 1):
-        for c in range(3):
-            departure[k, c] *= tensor[AIR_ROW, k]
+    for k in range(len(departure)):
+        if tensor[AIR_ROW, k] == _F(0.0):
+            departure[k, :] = _F(0.0)
