@@ -8,13 +8,14 @@ from pathlib import Path
 import click
 
 from windswept.plants.species import load_species, species_names
+from windswept.plants.underbrush.library import load_underbrush, underbrush_names
 
 
 @click.command("species")
 @click.option("--json", "as_json", is_flag=True, help="One JSON list instead of lines.")
 @click.option("--sheet", help="Draw them side by side into a .png file.")
 def command(as_json: bool, sheet: str | None) -> None:
-    """List the built-in species, a line each.
+    """List the built-in species, a line each, trees and herbs before underbrush.
 
     Example: windswept species --sheet species.png
     """
@@ -24,7 +25,10 @@ def command(as_json: bool, sheet: str | None) -> None:
 
         check_place(Path(sheet), (".png",))
         draw_sheet(species_names(), Path(sheet), say=lambda line: click.echo(line, err=True))
-    known = [load_species(name) for name in species_names()]
+    known = [
+        *(load_species(name) for name in species_names()),
+        *(load_underbrush(name) for name in underbrush_names()),
+    ]
     if as_json:
         keys = ("name", "common_name", "latin_name", "summary")
         click.echo(json.dumps([{key: getattr(one, key) for key in keys} for one in known]))

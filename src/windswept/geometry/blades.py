@@ -76,8 +76,8 @@ def _strip(rows: int) -> Ints:
 
 
 def _tube(rows: int, sides: int) -> Ints:
-    """Triangles of a tube open at both ends."""
+    """Triangles of a tube open at both ends, seen from outside."""
     row, corner = (a.ravel() for a in np.meshgrid(np.arange(rows - 1), np.arange(sides), indexing="ij"))
     here, there = row * sides + corner, row * sides + (corner + 1) % sides
-    first = np.stack([here, here + sides, there], axis=1)
-    return np.concatenate([first, np.stack([there, here + sides, there + sides], axis=1)]).astype(np.int32)
+    first = np.stack([here, there, here + sides], axis=1)
+    return np.concatenate([first, np.stack([there, there + sides, here + sides], axis=1)]).astype(np.int32)

@@ -15,6 +15,7 @@ from windswept.plants.plant import Plant
 from windswept.plants.save import load_plant
 from windswept.plants.species import load_species, species_names
 from windswept.plants.species_form import Species
+from windswept.plants.underbrush.library import underbrush_names
 from windswept.plants.weber_penn import grow
 
 SPECIES_ENDING = ".toml"
@@ -111,6 +112,8 @@ def check_source(source: str | Path) -> None:
     """Raise InputError for a name that means nothing and for a file that is missing or of no known ending."""
     shown = one_line(shown_path(source)) or "source"
     if not is_path(source):
+        if source in underbrush_names():
+            raise InputError(shown, "", None, "a plant that grows alone; underbrush is grown into scenes")
         if source not in source_names():
             hint = nearest(str(source), source_names())
             raise InputError(shown, "", None, f"a built-in species or grammar, or a file: {hint}")

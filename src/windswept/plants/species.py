@@ -34,7 +34,10 @@ def load_species(source: str | Path) -> Species:
         InputError: there is no such species or the file holds none; says where and what was expected.
     """
     path, shown = _find(source), shown_path(source)
-    species = check_form(shown, Species, read_toml(path, LARGEST_FILE, "a species file"))
+    tables = read_toml(path, LARGEST_FILE, "a species file")
+    if tables.get("kind") == "underbrush":
+        raise InputError(shown, "kind", "underbrush", "a plant that grows alone; underbrush is grown into scenes")
+    species = check_form(shown, Species, tables)
     check_lengths(shown, species.growth)
     return species
 

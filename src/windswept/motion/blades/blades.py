@@ -101,9 +101,9 @@ def from_tiles(tiles: Floats) -> Floats:
 
 def place_blades(
     kind: BladeKind,
-    base: Floats,
-    frame: Floats,
-    size: Floats,
+    base: Doubles | Floats,
+    frame: Doubles | Floats,
+    size: Doubles | Floats,
     force_point: Doubles | None = None,
     time_step: float = TIME_STEP,
 ) -> Blades:
