@@ -7,7 +7,8 @@ from pathlib import Path
 
 import click
 
-from windswept.plants.species import load_species, species_names
+from windswept.plants.species import Species, load_species, species_names
+from windswept.plants.underbrush.form import UnderbrushSpecies
 from windswept.plants.underbrush.library import load_underbrush, underbrush_names
 
 
@@ -25,7 +26,7 @@ def command(as_json: bool, sheet: str | None) -> None:
 
         check_place(Path(sheet), (".png",))
         draw_sheet(species_names(), Path(sheet), say=lambda line: click.echo(line, err=True))
-    known = [
+    known: list[Species | UnderbrushSpecies] = [
         *(load_species(name) for name in species_names()),
         *(load_underbrush(name) for name in underbrush_names()),
     ]
