@@ -7,10 +7,15 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from handmade import BARE_STIFF, Stem, build_plant, random_tree, straight
+from windswept.motion import Stepper, build_model, finest_level, pose_links, rest_state
+from windswept.motion.bend import Bender
 from windswept.motion.bend_branches import place_branches
 from windswept.motion.bend_plain import WEIGHTS, step_ordered
 from windswept.motion.bend_plant import fit_curves, plant_branches, stem_flexibility
 from windswept.plants.air import AIR_DENSITY
+from windswept.wind.mean import MeanWind
+from windswept.wind.velocity import velocity
+from windswept.wind.wind import Wind
 
 
 def rest(branches):
@@ -81,8 +86,29 @@ def test_a_shrub_keeps_its_stems_apart():
 @pytest.mark.parametrize("links", [10, 40])
 def test_a_bare_pole_is_as_flexible_as_a_beam(links):
     length, radius = 4.0, 0.03
-    plant = build_plant(straight(length, links, radius, direction=(0.0, 0.0, 1.0)))
-    # A uniform load q = 1/2 rho C_d 2 r U^2 deflects the tip by q L^4 / (8 EI); two thirds is the mean direction's.
-    q = 2.0 / 3.0 * 0.5 * AIR_DENSITY * BARE_STIFF.wood_drag * 2.0 * radius
+    # Level, so that the wind is the same all along it.
+    plant = build_plant(straight(length, links, radius, direction=(1.0, 0.0, 0.0)))
+    # A uniform load q = 1/2 rho C_d 2 r U^2 deflects the tip by q L^4 / (8 EI); half is the mean over directions.
+    q = 0.5 * 0.5 * AIR_DENSITY * BARE_STIFF.wood_drag * 2.0 * radius
     deflection = q * length**4 / (8.0 * BARE_STIFF.youngs_modulus * 0.25 * np.pi * radius**4)
     assert stem_flexibility(plant)[0] == pytest.approx(1.5 * deflection / length, rel=0.02)
+
+
+def test_a_tapered_pole_leans_as_far_as_with_springs():
+    plant = build_plant(straight(5.0, 20, 0.02, 0.008))
+    model = build_model(plant)
+    level = finest_level(model)
+    wind = Wind(mean=MeanWind(10.0, 0.7))
+    at_probes = velocity(wind, model.probe_position, model.probe_position[:, 2], 0.0)[None]
+    state = rest_state(level, 1)
+    Stepper(level).step(state, at_probes, at_probes, 6000)
+    last = plant.stem_link_start[1] - 1
+    pose, rod = pose_links(model, level, state).link[0, last], (plant.link_tip - plant.link_base)[last]
+    axis, w = pose[4:7], pose[7]
+    sprung = pose[:3] + rod + 2.0 * np.cross(axis, np.cross(axis, rod) + w * rod)
+    bender = Bender(plant_branches(plant))
+    rest = bender.pose(bender.rest()).points[0, 3]
+    bent = bender.pose(bender.step_ordered(bender.rest(), wind, 0.0)).points[0, 3]
+    lean = np.linalg.norm(sprung - plant.link_tip[last])
+    assert lean > 0.05
+    assert_allclose(bent - rest, sprung - plant.link_tip[last], atol=0.04 * lean)

@@ -9,16 +9,19 @@ from numpy.typing import NDArray
 
 from windswept.motion.bend_branches import ROOT_FRAME, Branches
 from windswept.motion.bend_plain import curve_frame
-from windswept.motion.drag import build_drag
+from windswept.motion.drag import Drag, build_drag
 from windswept.motion.rods import build_rods, link_length
 from windswept.motion.skeleton import build_skeleton
 from windswept.plants.air import reconfiguration
 from windswept.plants.plant import Floats, Ints, Plant
+from windswept.wind.mean import Profile, profile_factor
 
 Doubles = NDArray[np.float64]
 
 LEAF_SPEED = 8.0
 """Wind at which leaves are as folded as ``bend`` takes them to be at any wind, m/s: a fresh breeze."""
+PROFILE = Profile()
+"""How the wind falls off from a branch's tip to what else grows on it: much the same in any open land."""
 STIFFENING = 1e-3
 """How strongly a curve with too few points to fit holds to its chord, over the weight of one point."""
 
@@ -92,25 +95,31 @@ def fit_curves(plant: Plant) -> Doubles:
 
 
 def stem_flexibility(plant: Plant) -> Doubles:
-    """(S,) bend factor per squared wind speed of every stem clamped at its base, 1/(m/s)^2.
+    """(S,) bend factor per squared wind at its tip of every stem clamped at its base, 1/(m/s)^2.
 
     The static deflection of the tip, d = sum over joints of compliance x moment x distance to the tip, with all
     that grows on the stem pushed by the same wind. A beam bends by d = 2/3 L b (C1.11), so b = 3 d / (2 L).
     """
     skeleton, drag = build_skeleton(plant), build_drag(plant)
-    fold = float(reconfiguration(plant.material, np.array(LEAF_SPEED)))
-    # Means over all directions of the wind: a third of a plate's tensor, two thirds of a cylinder's.
-    push = fold * drag.leaf[:, :3].sum(axis=1) / 3.0 + 2.0 / 3.0 * drag.wood + 1e-30
     centre = skeleton.base + drag.centre[:, None] * skeleton.vector
+    push = _push(plant, drag, skeleton.vector) * profile_factor(PROFILE, centre[:, 2]) ** 2
     beyond = _subtree_sum(push, skeleton.subtree_end)
     middle = _subtree_sum(push[:, None] * centre, skeleton.subtree_end) / beyond[:, None]
     moment = beyond * np.linalg.norm(middle - skeleton.base, axis=1)
-    tip = plant.link_tip[plant.stem_link_start[1:] - 1][plant.link_stem]
-    reach = np.linalg.norm(tip - skeleton.base, axis=1)
+    tip = plant.link_tip[plant.stem_link_start[1:] - 1].astype(np.float64)
+    reach = np.linalg.norm(tip[plant.link_stem] - skeleton.base, axis=1)
     compliance = build_rods(plant).compliance.mean(axis=1)
     deflection = np.bincount(plant.link_stem, compliance * moment * reach, plant.stem_count)
     length = np.bincount(plant.link_stem, link_length(plant), plant.stem_count)
-    return 1.5 * deflection / length
+    return np.asarray(1.5 * deflection / length / profile_factor(PROFILE, tip[:, 2]) ** 2, np.float64)
+
+
+def _push(plant: Plant, drag: Drag, vector: Doubles) -> Doubles:
+    """(L,) force on each link per squared wind, kg/m: the mean over all horizontal winds."""
+    fold = float(reconfiguration(plant.material, np.array(LEAF_SPEED)))
+    level_share = np.sum(vector[:, :2] ** 2, axis=1) / np.sum(vector**2, axis=1)
+    leaf, wood = 0.5 * (drag.leaf[:, 0] + drag.leaf[:, 1]), drag.wood * (1.0 - 0.5 * level_share)
+    return np.asarray(fold * leaf + wood + 1e-30, np.float64)
 
 
 def _subtree_sum(per_link: Doubles, subtree_end: Ints) -> Doubles:

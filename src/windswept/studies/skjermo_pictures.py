@@ -133,9 +133,9 @@ GUST_TIME = 6.0
 
 def gusty_wind() -> Wind:
     """A strong wind along +x whose front reaches the wood's middle at GUST_TIME."""
-    waves = plausible_waves(6.0, 0.3, seed=3, azimuth=0.15, along_count=3, cross_count=1)
-    front = Gust(GUST_TIME, 8.0, 0.15, (10.0, 0.0), speed=11.0, rise_length=25.0, hold_length=10.0)
-    return Wind(mean=MeanWind(6.0, 0.15), waves=WaveSchedule((WaveSet(waves),)), gusts=(front,))
+    waves = plausible_waves(7.0, 0.3, seed=3, azimuth=0.15, along_count=3, cross_count=1)
+    front = Gust(GUST_TIME, 10.0, 0.15, (10.0, 0.0), speed=11.0, rise_length=25.0, hold_length=10.0)
+    return Wind(mean=MeanWind(7.0, 0.15), waves=WaveSchedule((WaveSet(waves),)), gusts=(front,))
 
 
 def _stand(trees: int, kinds: int) -> tuple[Ints, Floats, Floats]:
