@@ -6,12 +6,13 @@
        | sample(field, points, height)
     what the field adds to the wind, (N, 3) m/s
 
-    velocity = deflection x (wind + primitives + jets) + departure
+    velocity = (1 - shelter) deflection x (wind + primitives + jets) + departure
 
 The wind and the primitives are known everywhere at once, so a gust's crest keeps its own speed. Around obstacles
-they are deflected by a tensor that is solved once (``deflect``). What else the air does, as wakes, air dragged along
-and the front of a flow that has just begun, is the *departure*: it is carried by the deflected air (Oseen's
-approximation: by the stream, not by itself), so that it travels in m/s whatever the step, and dies at a stated rate.
+they are deflected by a tensor that is solved once (``deflect``). Everything else is a *departure* from that: the
+shelter of wakes, air dragged along, and the front of a flow that has just begun. It is carried by the deflected air
+(Oseen's approximation: by the stream, not by itself), so that it travels in m/s whatever the step, and dies at a
+stated rate.
 """
 
 from windswept.wind.field.agents import Ball, Helicopter, Rain, Walker

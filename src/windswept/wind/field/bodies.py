@@ -122,7 +122,7 @@ def settle(rows, boxes, frame, seconds, rain, limit, departure, velocity, push, 
         seconds: of the step.
         rain: (nx, ny) downward pressure, N/m^2.
         limit: greatest speed, m/s.
-        departure: (nx, ny, nz, 4) m/s, changed.
+        departure: (nx, ny, nz, 4) of ``Field``, changed.
         velocity: (nx, ny, nz, 3) deflected ambient air, becomes the whole, m/s.
         push: (nx, ny, nz, 3) N/m^2, out.
         clamped: (nx,) nodes that were held back, out.
@@ -181,9 +181,10 @@ def _drag_along(row, own, inside, seconds, departure, velocity):  # type: ignore
     rate = _F(SHEDDING) * (own + np.sqrt(u * u + v * v + w * w)) / row[6]
     # Whole in the inner half of the body, and less towards its surface.
     taken = row[9] * min(_F(2.0) * inside, _F(1.0)) * (_F(1.0) - np.exp(-rate * seconds))
-    departure[0] += taken * (row[10] - row[13] * u - departure[0])
-    departure[1] += taken * (row[11] - row[13] * v - departure[1])
-    departure[2] += taken * (row[12] - row[13] * w - departure[2])
+    departure[0] += taken * (row[10] - departure[0])
+    departure[1] += taken * (row[11] - departure[1])
+    departure[2] += taken * (row[12] - departure[2])
+    departure[3] += taken * max(row[13] - departure[3], _F(0.0))
 
 
 @njit(cache=True, fastmath=FAST_MATH)
@@ -195,14 +196,13 @@ def _put_to_rest(numbers):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, fastmath=FAST_MATH)
 def _add_up(departure, velocity, limit):  # type: ignore[no-untyped-def]
-    """Velocity plus departure in the nodes of one slab; returns how many are out of bounds."""
+    """Air that is not sheltered, plus departure, in the nodes of one slab; returns how many are out of bounds."""
     count = np.int32(0)
     for n in range(len(velocity)):
-        u, v, w = (
-            velocity[n, 0] + departure[n, 0],
-            velocity[n, 1] + departure[n, 1],
-            velocity[n, 2] + departure[n, 2],
-        )
+        free = _F(1.0) - departure[n, 3]
+        u = velocity[n, 0] * free + departure[n, 0]
+        v = velocity[n, 1] * free + departure[n, 1]
+        w = velocity[n, 2] * free + departure[n, 2]
         velocity[n, 0], velocity[n, 1], velocity[n, 2] = u, v, w
         count += np.int32(0) if u * u + v * v + w * w <= limit * limit else np.int32(1)
     return count
@@ -217,4 +217,4 @@ def _hold_back(departure, velocity, limit):  # type: ignore[no-untyped-def]
         if not speed <= limit:
             for c in range(3):
                 velocity[n, c] = velocity[n, c] * (limit / speed) if speed < np.inf else _F(0.0)
-                departure[n, c] = _F(0.0)
+            departure[n, :] = _F(0.0)

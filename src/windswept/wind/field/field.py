@@ -53,7 +53,8 @@ class Field:
     profile: Floats
     """(nz,) its share at the height of each layer."""
     departure: Floats
-    """(nx, ny, nz, 4) of the air from the deflected ambient air, m/s; the fourth is 0."""
+    """(nx, ny, nz, 4) of the air from the deflected ambient air: velocity added, m/s, and share of the ambient air's
+    velocity taken away (in a wake), 0..1."""
     spare: Floats
     """(nx, ny, nz, 4) where the next departure is written."""
     flow: Floats

@@ -1,4 +1,4 @@
-"""Four consecutive float32 as one SIMD register: a velocity and a number to fill the register up."""
+"""Four consecutive float32 as one SIMD register: a velocity and a share."""
 
 from __future__ import annotations
 

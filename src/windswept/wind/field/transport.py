@@ -1,8 +1,8 @@
 """The air of a field at its nodes: ambient, deflected, and the departure that it carries.
 
 Layout: a column of nodes is innermost. Ambient air and deflection are worked out a slab of equal x at a time,
-component by component, in SIMD lanes; the departure has its three components side by side, and one number to fill a
-register, so that each of the eight corners that a node's air came from is one load.
+component by component, in SIMD lanes; the departure has its four numbers side by side, which fill a register, so
+that each of the eight corners that a node's air came from is one load.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def transport(before, ambient, profile, flow, column, tensor, shift, keep, after
     """Writes the deflected ambient air, and the departure where that air has carried it.
 
     Args:
-        before: (nx, ny, nz, 4) departure, m/s; 0 at borders and top.
+        before: (nx, ny, nz, 4) departure; 0 at borders and top.
         ambient: (nx, ny, 3) wind at the reference height, m/s.
         profile: (nz,) its share at the height of each layer.
         flow: (3, nx, ny, nz) primitives and jets, m/s; (3, 0, 0, 0) if there are none.
