@@ -42,7 +42,7 @@ BAD = {
     ),
     "unknown choice": ({"ground": {"kind": "sea"}}, 'ground.kind = \'sea\': expected one of "flat", "hills"'),
     "short position": ({"plant": [PLANT | {"position": [1.0]}]}, "plant[0].position[1]: expected this key"),
-    "no plants": ({"plant": []}, "test.toml: expected at least one [[plant]] or [[stand]]"),
+    "no plants": ({"plant": []}, "test.toml: expected at least one [[plant]] or [[stand]], or a [spread]"),
     "no count": ({"stand": [STAND | {"count": 0}]}, "stand[0].count = 0: expected a whole number from 1"),
     "unknown species": (
         {"plant": [PLANT | {"source": "hazle"}]},

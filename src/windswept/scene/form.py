@@ -11,20 +11,25 @@ from pydantic import Field
 
 from windswept.forms.form import Form
 from windswept.scene.planting_form import PlantForm, StandForm
-from windswept.scene.values import Angle, Length, Place, Point, Seed, Speed, Time
+from windswept.scene.spread.spread_form import NutrientForm, SpreadForm
+from windswept.scene.values import Angle, Length, Level, Place, Point, Seed, Source, Speed, Time
 
 
 class GroundForm(Form):
     """The ground: a square centred on the origin."""
 
-    kind: Literal["flat", "hills"] = "flat"
-    """Level, or gentle hills."""
+    kind: Literal["flat", "hills", "image"] = "flat"
+    """Level, gentle hills, or heights from an image."""
     size_m: Annotated[float, Field(ge=10, le=4000)] = 200.0
     """Edge of the square; every plant stands on it."""
     relief_m: Annotated[float, Field(ge=0, le=200)] = 3.0
     """Hills: from the lowest to the highest point."""
     hill_length_m: Annotated[float, Field(ge=5, le=2000)] = 80.0
     """Hills: from one hill to the next."""
+    image: Source | None = None
+    """Image: path of a square grey PNG or TIFF of 8 or 16 bit relative to the scene file; its top is north."""
+    heights_m: Annotated[tuple[Level, Level], Field(strict=False)] = (0.0, 10.0)
+    """Image: height of black and height of white."""
 
 
 class GustForm(Form):
@@ -150,9 +155,13 @@ class SceneForm(Form):
     wind: WindForm = WindForm()
     """`[wind]`"""
     plant: Annotated[list[PlantForm], Field(max_length=100_000)] = Field(default=[])
-    """`[[plant]]`, any number; there is at least one plant or stand."""
+    """`[[plant]]`, any number; there is at least one plant or stand, or a spread."""
     stand: Annotated[list[StandForm], Field(max_length=1000)] = Field(default=[])
     """`[[stand]]`, any number."""
+    nutrient: Annotated[list[NutrientForm], Field(max_length=64)] = Field(default=[])
+    """`[[nutrient]]`, any number."""
+    spread: SpreadForm | None = None
+    """`[spread]`"""
     camera: CameraForm
     """`[camera]`"""
     sun: SunForm = SunForm()

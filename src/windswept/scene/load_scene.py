@@ -12,12 +12,13 @@ from windswept.forms.read_toml import read_toml
 from windswept.forms.words import nearest
 from windswept.plants.sources import ENDINGS, SPECIES_ENDING, is_path, source_names
 from windswept.scene.build_camera import build_camera
+from windswept.scene.build_ground import build_terrain
+from windswept.scene.build_spread import build_spread
 from windswept.scene.build_wind import build_wind
-from windswept.scene.form import GroundForm, SceneForm
+from windswept.scene.form import SceneForm
 from windswept.scene.lone_plant import lone_plant
-from windswept.scene.place_plants import named_stream, place_plants
+from windswept.scene.place_plants import build_placements, place_plants
 from windswept.scene.scene import Scene, sun_towards
-from windswept.scene.terrain import Terrain, flat_terrain, hilly_terrain
 
 LARGEST_FILE = 16 << 20
 """A scene file of more bytes than this is a mistake: 100,000 plants take 8 MiB."""
@@ -59,25 +60,20 @@ def build_scene(source: str, data: dict[str, Any], seed: int | None = None) -> S
         seed: replaces the file's.
     """
     form = check_form(source, SceneForm, data if seed is None else data | {"seed": seed})
-    terrain = build_terrain(form.ground, form.seed)
-    kinds, placements = place_plants(source, form, terrain)
+    terrain = build_terrain(source, form.ground, form.seed)
+    nursery = place_plants(source, form, terrain)
+    colonies = build_spread(source, form, terrain, nursery)
     return Scene(
         seed=form.seed,
         terrain=terrain,
         wind=build_wind(source, form.wind, form.seed),
-        kinds=kinds,
-        placements=placements,
+        kinds=tuple(nursery.places),
+        placements=build_placements(source, nursery, terrain),
         camera=build_camera(source, form.camera, terrain),
         sun_direction=sun_towards(
             math.radians(form.sun.azimuth_degrees), math.radians(form.sun.elevation_degrees)
         ),
         duration=form.time.duration_s,
         frames_per_second=form.time.fps,
+        colonies=colonies,
     )
-
-
-def build_terrain(form: GroundForm, seed: int) -> Terrain:
-    """The ground of a scene."""
-    if form.kind == "flat":
-        return flat_terrain(form.size_m)
-    return hilly_terrain(form.size_m, form.relief_m, form.hill_length_m, named_stream(seed, "ground"))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from zlib import crc32
 
 import numpy as np
 
@@ -14,16 +13,15 @@ from windswept.scene.plant_sources import Nursery, find_source
 from windswept.scene.planting_form import AreaForm, PlantForm, StandForm
 from windswept.scene.scatter import Ground, Sort, scatter, share_out
 from windswept.scene.scene import Placements, PlantKind
+from windswept.scene.streams import named_stream
 from windswept.scene.terrain import Terrain
 
 PLACEMENT_BUDGET = 50_000
 """Most plants that one scene file may place; larger landscapes are baked tile by tile."""
 
 
-def place_plants(
-    source: str, form: SceneForm, terrain: Terrain
-) -> tuple[tuple[PlantKind, ...], tuple[Placements, ...]]:
-    """Every plant of a scene in its place; stands keep clear of what was placed before them.
+def place_plants(source: str, form: SceneForm, terrain: Terrain) -> Nursery:
+    """Every plant and stand of a scene in its place; stands keep clear of what was placed before them.
 
     Args:
         source: the scene file, for error messages.
@@ -42,20 +40,15 @@ def place_plants(
     for i, stand in enumerate(form.stand):
         rng = named_stream(form.seed, "stand", i)
         _place_stand(source, f"stand[{i}]", stand, form.seed, terrain, ground, nursery, rng)
-    return tuple(nursery.places), tuple(_placements(nursery, kind, terrain) for kind in nursery.places)
-
-
-def named_stream(seed: int, name: str, index: int = 0) -> np.random.Generator:
-    """Random numbers of one part of a scene, independent of every other part."""
-    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(crc32(name.encode()), index)))
+    return nursery
 
 
 def _check_budget(source: str, form: SceneForm) -> None:
     """There is something to place and not too much of it."""
     counts = [stand.count for stand in form.stand]
     total = len(form.plant) + sum(counts)
-    if total == 0:
-        raise InputError(source, "", None, "at least one [[plant]] or [[stand]]")
+    if total == 0 and form.spread is None:
+        raise InputError(source, "", None, "at least one [[plant]] or [[stand]], or a [spread]")
     if total > PLACEMENT_BUDGET:
         largest = f"stand[{int(np.argmax(counts))}].count" if counts else "the number of [[plant]] tables"
         raise BudgetError(f"{source}: {total:,} plants, at most {PLACEMENT_BUDGET:,}: lower {largest}")
@@ -66,7 +59,7 @@ def _place_one(
 ) -> None:
     """One [[plant]]."""
     x, y = form.position
-    _check_on_ground(source, f"{place}.position", list(form.position), terrain)
+    check_on_ground(source, f"{place}.position", list(form.position), terrain)
     kind = PlantKind(find_source(source, f"{place}.source", form.source), form.seed)
     ground.take(x, y, 0.0)
     nursery.add(kind, x, y, math.radians(form.yaw_degrees))
@@ -130,16 +123,35 @@ def build_area(source: str, place: str, form: AreaForm, terrain: Terrain) -> Are
     if not area.greatest_depth > 0.0:
         raise InputError(source, key, None, "corners around a piece of ground")
     for corner in area.bounds:
-        _check_on_ground(source, key, corner.tolist(), terrain)
+        check_on_ground(source, key, corner.tolist(), terrain)
     return area
 
 
-def _check_on_ground(source: str, place: str, position: list[float], terrain: Terrain) -> None:
+def check_on_ground(source: str, place: str, position: list[float], terrain: Terrain) -> None:
     """A place lies on the terrain."""
     half = 0.5 * terrain.size
     if max(map(abs, position)) > half:
         expected = f"x and y from {-half:g} to {half:g}, on the ground (ground.size_m = {terrain.size:g})"
         raise InputError(source, place, position, expected)
+
+
+def build_placements(source: str, nursery: Nursery, terrain: Terrain) -> tuple[Placements, ...]:
+    """Placements of every kind, on the ground.
+
+    Args:
+        source: the scene file, for error messages.
+        nursery: all plants of the scene.
+        terrain: the ground.
+
+    Raises:
+        BudgetError: more plants than PLACEMENT_BUDGET.
+    """
+    total = sum(map(len, nursery.places.values()))
+    if total > PLACEMENT_BUDGET:
+        raise BudgetError(
+            f"{source}: {total:,} plants, at most {PLACEMENT_BUDGET:,}: lower most of spread.species"
+        )
+    return tuple(_placements(nursery, kind, terrain) for kind in nursery.places)
 
 
 def _placements(nursery: Nursery, kind: PlantKind, terrain: Terrain) -> Placements:

@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windswept.errors import InputError
+from windswept.forms.read_toml import read_toml
 from windswept.forms.words import nearest
 from windswept.plants.sources import SPECIES_ENDING, check_source, is_path, source_names
-from windswept.plants.species import load_species
+from windswept.plants.species import LARGEST_FILE, load_species
+from windswept.plants.underbrush.library import load_underbrush, underbrush_names
 from windswept.scene.scene import PlantKind
 
 Reals = NDArray[np.float64]
@@ -39,6 +41,36 @@ def find_source(file: str, place: str, source: str) -> str:
     if path.suffix.lower() == SPECIES_ENDING:
         load_species(path)
     return str(path)
+
+
+def find_source_or_underbrush(file: str, place: str, source: str) -> tuple[str, bool]:
+    """As `find_source`, also for underbrush; and whether it is a tree (anything that `grow_source` takes).
+
+    Args:
+        file: the scene file.
+        place: dotted key of the source.
+        source: its value; a path is relative to the scene file.
+
+    Raises:
+        InputError: no such name or file, or the species file is wrong.
+    """
+    if not is_path(source):
+        if source in underbrush_names():
+            return source, False
+        if source not in source_names():
+            known = nearest(source, [*underbrush_names(), *source_names()])
+            raise InputError(file, place, source, f"built-in underbrush or a built-in species: {known}")
+        return source, True
+    path = Path(file).parent / source
+    if path.suffix.lower() == SPECIES_ENDING and path.is_file() and is_underbrush_file(path):
+        load_underbrush(path)
+        return str(path), False
+    return find_source(file, place, source), True
+
+
+def is_underbrush_file(path: Path) -> bool:
+    """Whether a species file says that it is one of underbrush."""
+    return read_toml(path, LARGEST_FILE, "a species file").get("kind") == "underbrush"
 
 
 @dataclass

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windswept.scene.camera import Camera
+from windswept.scene.spread.colony import Colony
 from windswept.scene.terrain import Terrain
 from windswept.wind.wind import Wind
 
@@ -55,6 +56,8 @@ class Scene:
     duration: float
     """s."""
     frames_per_second: float
+    colonies: tuple[Colony, ...] = ()
+    """Underbrush that has spread."""
 
     @property
     def placement_count(self) -> int:
