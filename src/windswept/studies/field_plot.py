@@ -54,8 +54,8 @@ COLOURS = (
 INK = (40, 40, 40)
 
 
-def passing_gust() -> Field:
-    """The field at the moment that is drawn."""
+def passing_gust(cell: float = 0.5) -> Field:
+    """The field at the moment that is drawn, with nodes a cell's edge apart, m."""
     gust = Gust(
         start=TIME,
         strength=4.5,
@@ -67,7 +67,7 @@ def passing_gust() -> Field:
         decay_length=26.0,
     )
     wind = Wind(mean=MeanWind(5.0, 0.0), gusts=(gust,))
-    grid = Grid((-60.0, -40.0), (0.5, 0.5, 1.0), (241, 161, 13))
+    grid = Grid((-60.0, -40.0), (cell, cell, 1.0), (round(120.0 / cell) + 1, round(80.0 / cell) + 1, 13))
     field = start_field(FieldPlan(grid, obstacles=(POST, CROWN)), wind)
     return step_field(field, TIME)
 
@@ -158,10 +158,9 @@ def _draw_frame(draw: Any, width: int, height: int) -> None:
         py = TOP + (NORTH - y) * PER_METRE
         draw.line((LEFT - 6, py, LEFT, py), fill=INK)
         draw.text((LEFT - 10, py), f"{y}", fill=INK, font_size=18, anchor="rm")
-    draw.text((LEFT - 60, TOP + 4), "m", fill=INK, font_size=18, anchor="lm")
-    title = (
-        f"Air {HEIGHT:g} m above the ground: a gust (9 m/s, front at the right) has passed a post and a crown"
-    )
+    draw.text((LEFT - 10, TOP + 8), "y, m", fill=INK, font_size=18, anchor="rm")
+    draw.text((LEFT + width, TOP + height + 10), "x, m", fill=INK, font_size=18, anchor="rt")
+    title = f"Air {HEIGHT:g} m above the ground: a gust that travels to the right at 9 m/s passes a post and a crown"
     draw.text((LEFT, TOP - 30), title, fill=INK, font_size=22, anchor="lm")
     bar = 420
     left, top = LEFT + width - bar, TOP + height + 62
