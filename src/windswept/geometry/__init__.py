@@ -7,4 +7,5 @@
     PosedCurves --bark_surface--> Surface           bark.py; on the card gpu/shaders/bark.wgsl
     Geometry --detail_order, choose_detail--> Detail  detail.py: how much is drawn, by size on the screen
     leaf_mesh                                       leaves.py: blades of every shape
+    (Blade, BladePose) --blade_surface--> BladeSurface  blades.py: underbrush
 """

@@ -230,3 +230,16 @@ def test_a_force_of_a_million_newtons_is_shortened_and_counted(grass: BladeKind)
 def test_a_field_that_is_none_is_refused() -> None:
     with pytest.raises(ValueError, match="2 or more along each axis"):
         pack_field(np.zeros((4, 1, 4, 3), np.float32), None, (0.0, 0.0), (1.0, 1.0, 1.0))
+
+
+def test_no_air_breaks_the_numbers(grass: BladeKind) -> None:
+    blades = meadow(grass, 64)
+    state, rng = rest_blades(blades), np.random.default_rng(6)
+    strange = np.float32([0.0, 1e-30, 1e-3, 30.0, 1e4, 1e10, 1e19, 3e38, np.nan, np.inf])
+    for _ in range(60):
+        velocity = rng.choice(strange, (64, 3)) * rng.choice([-1, 1], (64, 3)).astype(np.float32)
+        push = rng.choice(strange, (64, 3)) * rng.choice([-1, 1], (64, 3)).astype(np.float32)
+        step_in_given(blades, state, velocity, push)
+        assert np.isfinite(state.lanes).all()
+        assert np.isfinite(pose_blades(blades, state).joint).all()
+    assert state.clamped_count > 0

@@ -63,7 +63,8 @@ class BladeState:
     step_count: int = 0
     """Steps taken since rest."""
     clamped_count: int = 0
-    """Forces so far that were no numbers (taken for none) or too large to be meant (shortened)."""
+    """How often a blade, in one call of a step, felt a force that was no number (taken for none) or too large to be
+    meant (shortened)."""
 
     @property
     def lean(self) -> Floats:

@@ -102,14 +102,12 @@ def _kept_in_bounds(force):  # type: ignore[no-untyped-def]
     """The force, none where it is no number, at most LARGEST_FORCE; and 1 where nothing had to be done."""
     square = dot(force, force)
     sound = within(square, _INFINITE)
-    zero = force[0] * _F(0.0)
-    zero = choose(sound, zero, sound)
+    zero = sound * _F(0.0)
     force = choose(sound, force[0], zero), choose(sound, force[1], zero), choose(sound, force[2], zero)
     square = choose(sound, square, zero)
+    in_bounds = sound * within(square, _LARGEST_SQUARE)
     shorter = at_most(_F(LARGEST_FORCE) / sqrt(square + _TINY), _ONE)
-    return (force[0] * shorter, force[1] * shorter, force[2] * shorter), sound * within(
-        square, _LARGEST_SQUARE
-    )
+    return (force[0] * shorter, force[1] * shorter, force[2] * shorter), in_bounds
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
