@@ -44,7 +44,8 @@ def bench_field(say: Callable[[str], None] = lambda line: None) -> dict[str, flo
 
     ``ms`` is a step in turbulence and a gust, past three obstacles, with a ball and a walker; ``rain_ms`` and
     ``downwash_ms`` what rain and a helicopter add to it; ``times_triad_time`` is ``ms`` over the time in which the
-    machine's triad moves ``bytes``; ``start_seconds`` goes into solving the deflection.
+    machine's triad moves ``bytes``; ``start_seconds`` goes into solving the deflection. ``divergence`` is what is left
+    round a post in steady wind, as root mean square over the nodes within four radii, over wind speed per cell.
     """
     name = "field." + "x".join(map(str, SHAPE))
     say(name)
@@ -62,6 +63,8 @@ def bench_field(say: Callable[[str], None] = lambda line: None) -> dict[str, flo
         f"{name}.downwash_ms": 1e3
         * (seconds_per_step(busy_field(Helicopter(walk))) - seconds_per_step(busy_field())),
         f"{name}.sample_ns_per_point": 1e9 * median_seconds(lambda: sample(busy, points, height)) / POINTS,
+        f"{name}.divergence_without_wake": remaining_divergence(wakes=False),
+        f"{name}.divergence_with_wake": remaining_divergence(wakes=True),
         f"{name}.start_seconds": median_seconds(busy_field, repeats=3, warm_up=0),
     }
 
@@ -82,3 +85,16 @@ def busy_field(*agents: Ball | Walker | Rain | Helicopter) -> Field:
 def seconds_per_step(field: Field) -> float:
     """Median wall time of one step, once wakes have grown, s."""
     return median_seconds(lambda: step_field(field, STEP), repeats=60, warm_up=60)
+
+
+def remaining_divergence(wakes: bool) -> float:
+    """Root mean square divergence round a post of 4 cells' radius, 1 is the wind's speed lost within one cell."""
+    post, speed = Cylinder((0.0, 0.0), 4.0, 12.0), 6.0
+    grid = Grid((-32.0, -32.0), (1.0, 1.0, 1.0), (65, 65, 16))
+    field = start_field(FieldPlan(grid, obstacles=(post,)), Wind(mean=MeanWind(speed)))
+    step_field(field, 15.0 if wakes else 1e-3)
+    air = field.velocity.astype(np.float64)
+    divergence = sum(np.gradient(air[..., axis], axis=axis) for axis in range(3))
+    x, y, z = np.moveaxis(grid.nodes(), -1, 0)
+    near = (np.hypot(x, y) < 16.0) & (np.hypot(x, y) > 5.0) & (z > 0.0) & (z < 15.0)
+    return float(np.sqrt(np.mean(np.asarray(divergence)[near] ** 2)) / speed)
