@@ -105,7 +105,7 @@ def test_the_card_bends_as_the_cpu_does(device, grove, mode, weights):
     card, bender, wind = Bending(device, branches, weights=weights), Bender(branches, weights), gusty()
     state = bender.rest()
     still, worst, moved = bender.pose(state).points, 0.0, 0.0
-    for time in np.arange(0.0, 10.0, 0.1):
+    for time in np.arange(0.0, 10.0, 0.2):
         getattr(card, mode)(wind, time)
         getattr(bender, mode)(state, wind, time)
         ours, theirs = card.pose(), bender.pose(state)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from handmade import random_tree
-from windswept.motion.bend import Bender, bend_legs, turned_by
+from windswept.motion.bend import ALONE, Bender, bend_legs, turned_by
 from windswept.motion.bend_branches import Branches, BranchPose, place_branches
 from windswept.motion.bend_plain import (
     WEIGHTS,
@@ -24,6 +24,7 @@ from windswept.motion.bend_plain import (
     step_ordered,
 )
 from windswept.motion.bend_plant import plant_branches
+from windswept.motion.lanes import WIDTH
 from windswept.wind.gusts import Gust
 from windswept.wind.mean import MeanWind
 from windswept.wind.plausible_waves import plausible_waves
@@ -264,3 +265,17 @@ def test_far_plants_bend_as_near_ones() -> None:
     steady = Wind(mean=MeanWind(7.0, 1.0))
     poses = [b.pose(b.step_ordered(b.rest(), steady, 0.0)).points for b in (Bender(far), Bender(near))]
     assert_array_equal(*poses)
+
+
+def test_threads_share_the_work_of_a_wood() -> None:
+    count = 1 + ALONE * WIDTH // pliant(4).branch_count
+    position = np.random.default_rng(0).uniform(-90.0, 90.0, (count, 3)).astype(np.float32)
+    wood = place_branches([pliant(4)], np.zeros(count, int), position, np.linspace(0.0, 6.0, count))
+    assert wood.branch_count > ALONE * WIDTH
+    bender, wind = Bender(wood), gusty()
+    state = bender.rest()
+    before = bender.pose(state)
+    now = bender.pose(bender.step_lagged(state, wind, 3.0))
+    expected = step_lagged(wood, before, bend_factor(wood, wind, 3.0), WEIGHTS["beam"])
+    assert np.abs(now.points - before.points).max() > 0.05 * tall(wood)
+    assert_allclose(now.points, expected.points, atol=1e-5 * tall(wood))

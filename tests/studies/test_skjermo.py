@@ -21,6 +21,7 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(skjermo, "DRAWN", (1,))
     monkeypatch.setattr(skjermo, "SIZE", (96, 64))
     monkeypatch.setattr(skjermo, "CARD_SECONDS", 0.05)
+    monkeypatch.setattr(skjermo, "STEPS", 8)
 
 
 @pytest.mark.parametrize("count", [1024, 4096])

@@ -7,6 +7,7 @@ The cheapest motion there is: every branch follows the wind at once, without ine
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -30,9 +31,11 @@ POSE_COUNT = 15
 BLOCK = 64
 """Tiles that a thread takes at a time; the wind at their tips stays in its nearest cache."""
 
+ALONE = 8 * BLOCK
+"""Up to so many tiles, some 70 microseconds, waiting for other threads costs more than they save."""
+
 _F = np.float32
 _W = np.uintp(WIDTH)
-_CONSTANTS = np.uintp(CONSTANT_COUNT * WIDTH)
 _POSE = np.uintp(POSE_COUNT * WIDTH)
 _ONE: Any = _F(1.0)
 _TINY: Any = _F(1e-30)
@@ -167,34 +170,71 @@ def _bend_tile(c, place, i, before, u, v, weights, after, out):  # type: ignore[
     store3(after, out + three * np.uintp(4), out_of(frame, load3(c, _W * np.uintp(12))))
 
 
-@njit(parallel=True, cache=True, fastmath=FAST_MATH)
-def _bend_levels(  # type: ignore[no-untyped-def]
-    level_tile, constants, place, tip_x, tip_y, scale, mean, waves, gusts, time, weights, before, after
+@njit(cache=True, fastmath=FAST_MATH)
+def _bend_block(  # type: ignore[no-untyped-def]
+    first, last, constants, place, tip_x, tip_y, scale, mean, waves, gusts, time, weights, before, after
 ):
-    """One pass over tiles ``level_tile[k]:level_tile[k+1]`` after the other; tiles of a pass in any order."""
-    for level in range(len(level_tile) - 1):
-        start, end = level_tile[level], level_tile[level + 1]
-        for block in prange((end - start + BLOCK - 1) // BLOCK):
-            first = start + block * BLOCK
-            last = min(first + BLOCK, end)
-            rows = slice(first * WIDTH, last * WIDTH)
-            u, v = air_at_reference(tip_x[rows], tip_y[rows], mean, waves, gusts, time)
-            for tile in range(first, last):
-                here = np.uintp(tile)
-                in_block, i = np.uintp(tile - first) * _W, here * _W
-                air_u, air_v = load(u, in_block), load(v, in_block)
-                push = sqrt(air_u * air_u + air_v * air_v + _TINY) * load(scale, i)
-                _bend_tile(
-                    constants[tile],
-                    place,
-                    i,
-                    before,
-                    air_u * push,
-                    air_v * push,
-                    weights,
-                    after,
-                    here * _POSE,
-                )
+    """Tiles first..last: the wind at all their tips, then one tile after the other."""
+    rows = slice(first * WIDTH, last * WIDTH)
+    u, v = air_at_reference(tip_x[rows], tip_y[rows], mean, waves, gusts, time)
+    for tile in range(first, last):
+        in_block, i = np.uintp(tile - first) * _W, np.uintp(tile) * _W
+        air_u, air_v = load(u, in_block), load(v, in_block)
+        push = sqrt(air_u * air_u + air_v * air_v + _TINY) * load(scale, i)
+        b_u, b_v = air_u * push, air_v * push
+        _bend_tile(constants[tile], place, i, before, b_u, b_v, weights, after, np.uintp(tile) * _POSE)
+
+
+@njit(parallel=True, cache=True, fastmath=FAST_MATH)
+def _bend_tiles(  # type: ignore[no-untyped-def]
+    start, end, constants, place, tip_x, tip_y, scale, mean, waves, gusts, time, weights, before, after
+):
+    """Blocks of tiles over the threads."""
+    for block in prange((end - start + BLOCK - 1) // BLOCK):
+        first = start + block * BLOCK
+        last = min(first + BLOCK, end)
+        _bend_block(
+            first,
+            last,
+            constants,
+            place,
+            tip_x,
+            tip_y,
+            scale,
+            mean,
+            waves,
+            gusts,
+            time,
+            weights,
+            before,
+            after,
+        )
+
+
+@njit(cache=True, fastmath=FAST_MATH)
+def _bend_tiles_alone(  # type: ignore[no-untyped-def]
+    start, end, constants, place, tip_x, tip_y, scale, mean, waves, gusts, time, weights, before, after
+):
+    """Blocks of tiles on this thread."""
+    for block in range((end - start + BLOCK - 1) // BLOCK):
+        first = start + block * BLOCK
+        last = min(first + BLOCK, end)
+        _bend_block(
+            first,
+            last,
+            constants,
+            place,
+            tip_x,
+            tip_y,
+            scale,
+            mean,
+            waves,
+            gusts,
+            time,
+            weights,
+            before,
+            after,
+        )
 
 
 class Bender:
@@ -250,21 +290,25 @@ class Bender:
             height = profile_factor(wind.profile, self.branches.tip[:, 2])
             self._scale[self._row] = self.branches.flexibility * height * height
             self._profile = wind.profile
-        _bend_levels(
-            level_tile,
-            self._constants,
-            self._place,
-            self._tip[0],
-            self._tip[1],
-            self._scale,
-            wind.mean.vector,
-            wave_rows(wind, time),
-            wind.gust_rows,
-            time,
-            self._weights,
-            before.reshape(-1),
-            after.reshape(-1),
-        )
+        waves, gusts = wave_rows(wind, time), wind.gust_rows
+        for start, end in pairwise(level_tile.tolist()):
+            bend_tiles = _bend_tiles if end - start > ALONE else _bend_tiles_alone
+            bend_tiles(
+                start,
+                end,
+                self._constants,
+                self._place,
+                self._tip[0],
+                self._tip[1],
+                self._scale,
+                wind.mean.vector,
+                waves,
+                gusts,
+                time,
+                self._weights,
+                before.reshape(-1),
+                after.reshape(-1),
+            )
 
 
 _GROUND = np.concatenate([np.outer([0.0, 1.0, 2.0, 3.0], [1.0, 0.0, 0.0]).ravel(), [0.0, 1.0, 0.0]])
