@@ -73,7 +73,7 @@ def room_for(size: BlockSize, placements: Counts, coarsest: NDArray[np.bool_], l
     if not fits(low):
         needed = int((blocks(low)[:, None] * row_bytes).sum(axis=0).max())
         raise GraphicsError(
-            f"the simulation needs {needed / 1e6:.0f} MB in one buffer and this adapter takes {limit / 1e6:.0f} MB: "
+            f"the simulation needs {needed / 1e6:.2f} MB in one buffer and this adapter takes {limit / 1e6:.2f} MB: "
             "place fewer plants, or simulate on the CPU"
         )
     if fits(high):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,9 @@ from windswept.scene.camera import view_at
 from windswept.scene.moving_kind import BLEND_TIME
 from windswept.scene.scene import Scene
 from windswept.scene.simulation import WIND_INTERVAL
+
+Stage = Callable[[Any], None]
+"""Records its part into a command encoder."""
 
 
 class GpuSimulation:
@@ -59,6 +63,7 @@ class GpuSimulation:
         """Seconds since rest."""
         self.step_count = 0
         """Inner steps taken since rest."""
+        self._ladders = any(kind.ladder for kind in kinds)
         self._pixels, self._picture_height = pixels, picture_height
         self._device = shared_device()
         limit = self._device.limits["max-storage-buffer-binding-size"]
@@ -68,8 +73,8 @@ class GpuSimulation:
             self.card = CardState(self._device, self._arrays, seats, scene.terrain.heights)
             self._walk = Walk(self._device, self.card, len(self._arrays.rungs), len(self._arrays.rooted))
             self.card.write_moment(self._moment(0, 0))
-            self._record(self._walk.plan)
-            self._sample_wind()
+            self._write_wind()
+            self._record(self._walk.plan, self._walk.sample_wind)
 
     def advance(self, seconds: float) -> GpuSimulation:
         """Lets ``seconds`` pass: as many fixed inner steps as fit.
@@ -83,12 +88,11 @@ class GpuSimulation:
         with card_errors("stepping plants"):
             while self.step_count < due:
                 taken = self.step_count % WIND_INTERVAL
-                if taken == 0 and self.step_count:
-                    self._change_levels()
-                    self._sample_wind()
                 count = min(due - self.step_count, WIND_INTERVAL - taken)
                 self.card.write_moment(self._moment(taken, taken + count))
-                self._record(self._walk.step)
+                self._record(
+                    *(self._begin_interval() if taken == 0 and self.step_count else ()), self._walk.step
+                )
                 self.step_count += count
         return self
 
@@ -148,23 +152,22 @@ class GpuSimulation:
         """How long each stage took on the card when it last ran; empty on a card without a clock."""
         return self._walk.times.read()
 
-    def _change_levels(self) -> None:
-        """Lets every placement go to the level that the camera asks for."""
-        if any(kind.ladder for kind in self.kinds):
-            self.card.write_moment(self._moment(0, 0))
-            self._record(self._walk.change_levels)
+    def _begin_interval(self) -> list[Stage]:
+        """What comes before the steps of an interval: changes of level, then the winds at both ends."""
+        self._write_wind()
+        return [*([self._walk.change_levels] if self._ladders else []), self._walk.sample_wind]
 
-    def _sample_wind(self) -> None:
-        """Winds at both ends of the interval that begins now."""
+    def _write_wind(self) -> None:
+        """Tells the card of the wind in the interval that begins now."""
         start, stop = self.step_count * TIME_STEP, (self.step_count + WIND_INTERVAL) * TIME_STEP
         if self.card.write_air(air_rows(self.wind, self.scene.terrain, start, stop)):
             self._walk.rebind_wind()
-        self._record(self._walk.sample_wind)
 
-    def _record(self, stage: Any) -> None:
-        """Hands one stage to the card."""
+    def _record(self, *stages: Stage) -> None:
+        """Hands stages to the card."""
         encoder = self._device.create_command_encoder()
-        stage(encoder)
+        for stage in stages:
+            stage(encoder)
         self._device.queue.submit([encoder.finish()])
 
     def _eye_now(self) -> Eye:

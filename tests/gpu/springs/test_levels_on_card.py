@@ -1,0 +1,111 @@
+"""Levels chosen, blended and packed on the card, beside the CPU's."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from stands import both, gaps, stand_of
+from windswept.errors import GraphicsError
+from windswept.gpu import layouts
+from windswept.gpu.springs.kinds import kinds_of
+from windswept.gpu.springs.simulation import GpuSimulation
+from windswept.levels import Eye
+from windswept.scene import moving_kind
+
+
+def eye_at(y: float) -> Eye:
+    return Eye(np.array([0.0, y, 2.0], np.float32), float(np.radians(60.0)), 1080)
+
+
+def fly(simulation, card, ways, seconds: float = 1.0 / 30.0):
+    """Moves both eyes along y and lets time pass; yields at every place."""
+    for y in ways:
+        simulation.eye = card.eye = eye_at(y)
+        simulation.advance(seconds)
+        card.advance(seconds)
+        yield
+
+
+def blending(card: GpuSimulation) -> int:
+    return int((card.card.read("motions", layouts.MOTION)["origin"][:, 0] != layouts.NONE).sum())
+
+
+def check_seats(card: GpuSimulation) -> None:
+    """Every placement stands in the slots that it knows of, and no slot is taken twice or left open."""
+    motions = card.card.read("motions", layouts.MOTION)
+    members, populations = card.card.read("members", "<u4"), card.card.read("populations", "<u4")
+    seats = 0
+    for field in ("at", "origin"):
+        for placement, (rung, slot) in enumerate(motions[field][:, :2]):
+            if rung != layouts.NONE:
+                seats += 1
+                assert slot < populations[rung]
+                assert members[card._arrays.rungs["probes"][rung, 3] + slot] == placement
+    assert seats == populations.sum()
+
+
+def test_levels_and_blends_are_those_of_the_cpu(soft_trees, soft_ladders, monkeypatch):
+    # The card counts steps; seconds would be rounded so that some blends end an interval later.
+    monkeypatch.setattr(moving_kind, "BLEND_TIME", moving_kind.BLEND_TIME - 1e-9)
+    simulation, card = both(stand_of(soft_trees, [30, 21]), soft_ladders, soft_trees)
+    way = -2.0 - 60.0 * (1.0 - np.cos(np.arange(100) / 16.0))
+    changes, worst, before = 0, [], simulation.placements_by_level
+    for _ in fly(simulation, card, way):
+        for kind, levels in zip(simulation.kinds, card.levels_now, strict=True):
+            assert np.array_equal(kind.at, levels)
+        assert blending(card) == sum(len(kind.blends) for kind in simulation.kinds)
+        assert card.stepped_count == simulation.stepped_count
+        changes += simulation.placements_by_level != before
+        before = simulation.placements_by_level
+        worst.append(gaps(simulation, card).max())
+    check_seats(card)
+    assert card.refused_count == 0
+    assert changes > 8
+    # Both fit a group's pressure to its joints, the CPU in double precision and without a pull to rest.
+    assert np.quantile(worst, 0.5) < 1e-3
+
+
+def test_an_eye_that_jumps_leaves_no_seat_open(soft_trees, soft_ladders):
+    scene = stand_of(soft_trees, [90, 40], depth=300.0)
+    simulation, card = both(scene, soft_ladders, soft_trees)
+    rng = np.random.default_rng(4)
+    for _ in fly(simulation, card, rng.uniform(-400.0, 300.0, 12), seconds=0.3):
+        check_seats(card)
+        assert card.stepped_count == simulation.stepped_count
+    assert np.isfinite(card.card.read("state", "<f4")).all()
+
+
+def test_a_blend_neither_jumps_nor_stops(soft_trees, soft_ladders):
+    _, card = both(stand_of(soft_trees, [9, 4]), soft_ladders, soft_trees)
+    card.eye = eye_at(-1.0)
+    card.advance(2.0)
+    card.eye = eye_at(-80.0)
+    track = []
+    for _ in range(80):
+        track.append(card.advance(1.0 / 120.0).pose[0].position)
+    steps = np.abs(np.diff(np.array(track), axis=0)).max(axis=(1, 2))
+    assert blending(card) == 0
+    assert steps.min() > 0.0
+    assert steps.max() < 0.02 * soft_trees[0].height
+
+
+def test_who_finds_no_room_stays_and_is_counted(soft_trees, soft_ladders):
+    simulation, full = both(stand_of(soft_trees, [200, 40]), soft_ladders, soft_trees)
+    room = 500_000
+    card = GpuSimulation(simulation.scene, full.kinds, picture_height=1080, room=room)
+    rooms = card._arrays.rungs["room"][:, 3]
+    assert rooms[0] < 200 <= rooms[7]
+    card.eye = eye_at(20.0)
+    for _ in range(8):
+        card.advance(0.2)
+        check_seats(card)
+        assert (card.card.read("populations", "<u4") <= rooms).all()
+    assert card.refused_count > 0
+    assert np.isfinite(card.pose[0].position).all()
+
+
+def test_too_little_room_is_said_at_once(soft_trees, soft_ladders):
+    simulation, _ = both(stand_of(soft_trees, [3, 2]), soft_ladders, soft_trees)
+    with pytest.raises(GraphicsError, match=r"needs .* MB .* on the CPU"):
+        GpuSimulation(simulation.scene, kinds_of(simulation), room=2_000)

@@ -1,0 +1,64 @@
+"""The same stand of plants simulated on the CPU and on the card."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from windswept.gpu.springs.kinds import kinds_of
+from windswept.gpu.springs.simulation import GpuSimulation
+from windswept.levels import Ladder
+from windswept.plants.plant import Material, Plant
+from windswept.scene.load_scene import load_scene
+from windswept.scene.moving_kind import MovingKind
+from windswept.scene.scene import Placements, PlantKind, Scene
+from windswept.scene.simulation import Simulation
+from windswept.wind.gusts import Gust
+
+SOFT = Material(damping_ratio=0.2, youngs_modulus=2e8)
+
+
+def stand_of(plants: list[Plant], counts: list[int], depth: float = 40.0) -> Scene:
+    """Placements of each plant one behind the other, in turbulent wind with gusts that pass."""
+    rng = np.random.default_rng(0)
+    placements = []
+    for count in counts:
+        position = np.zeros((count, 3), np.float32)
+        position[:, 0], position[:, 1] = rng.uniform(-6.0, 6.0, count), np.linspace(0.0, depth, count)
+        placements.append(Placements(position, rng.uniform(0.0, 6.0, count).astype(np.float32)))
+    scene = load_scene("hazel")
+    gusts = tuple(Gust(start, 7.0, azimuth=0.4, width=80.0) for start in (0.5, 4.0, 7.0))
+    return replace(
+        scene,
+        wind=replace(scene.wind, gusts=gusts),
+        kinds=tuple(PlantKind("handmade", k) for k in range(len(plants))),
+        placements=tuple(placements),
+    )
+
+
+def both(scene: Scene, ladders: list[Ladder], plants: list[Plant]) -> tuple[Simulation, GpuSimulation]:
+    """The same scene on the CPU and on the card, each kind on the levels of its ladder."""
+    simulation = Simulation(scene, plants, picture_height=1080)
+    simulation.kinds = [
+        MovingKind(plant, placements, scene.terrain, True, ladder)
+        for plant, placements, ladder in zip(plants, scene.placements, ladders, strict=True)
+    ]
+    simulation.change_levels(at_once=True)
+    simulation._sample_winds()
+    return simulation, GpuSimulation(scene, kinds_of(simulation), picture_height=1080)
+
+
+def only(ladder: Ladder, place: int) -> Ladder:
+    """The ladder with one level that every eye asks for."""
+    return replace(ladder, error=np.where(np.arange(len(ladder.levels)) <= place, 0.0, np.inf))
+
+
+def gaps(simulation: Simulation, card: GpuSimulation) -> np.ndarray:
+    """(K,) greatest distance between a link of both, in heights of the plant, kind by kind."""
+    return np.array(
+        [
+            np.abs(ours.position - theirs.position).max() / kind.plant.height
+            for kind, theirs, ours in zip(simulation.kinds, simulation.pose, card.pose, strict=True)
+        ]
+    )
