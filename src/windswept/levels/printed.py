@@ -1,12 +1,14 @@
 """Beaudoin's merges, as the thesis prints them: merged branches share one averaged angle.
 
     parent/child   one link in place of a chain of two: fixed length, the stiffness and the inertia that give the
-                   chain's static deflection and lowest frequency (closed form; PHYSICS B3 and C3.4)
+                   chain's static deflection and lowest frequency, from the tables of simulated pairs (pair_table.py)
     child/child    one link in place of all children of a branch: averaged leaf area, length and direction, stiffness
-                   averaged by length; the passed-on force is made up to that of all children (C3.2)
+                   averaged by length
 
 The same merge tree and the same kernel serve both kinds of merge: here a group's members all turn by the merged
-link's one rotation, and what lies beyond them is carried along rigidly.
+link's one rotation, and what lies beyond them is carried along rigidly. What a group passes on is the drag of all its
+leaves and wood where they are, not that of the averaged leaf: the propagation factors of the thesis, corrected so that
+the trunk feels the same static force and moment at every level (C3.1, C3.2).
 """
 
 from __future__ import annotations
@@ -18,13 +20,24 @@ from numba import njit
 
 from windswept.levels.cut_level import compact_level, walk_cut
 from windswept.levels.hierarchy import Hierarchy, preorder
+from windswept.levels.pair_table import equal_rods, look_up_rate, look_up_stiffness, pair_table
 from windswept.motion import Level
-from windswept.motion.level import CENTRE, COUPLE, GROUP_MOBILITY, GROUP_STEP, SWAY
+from windswept.motion.level import GROUP_MOBILITY, GROUP_STEP, SWAY
 from windswept.motion.model import exact_step
 from windswept.motion.rods import Doubles
+from windswept.plants.plant import Ints
 
 SHORTEST_MEAN = 0.2
 """Opposed children average to a stub: below this share of their mean length the parent's axis is taken (C3.5)."""
+
+SUM_COUNT = 13
+"""Columns of the sums over the children of one link, by the numbers below; a child/child merge adds two rows up."""
+NUMBER, LENGTH, DIRECTION, BASE = 0, 1, 2, 5
+"""Of children; of their lengths, m; of drag x unit vector, kg/m; of the fraction along the parent."""
+STIFFNESS, MASS, MOMENT, INERTIA, DRAG = 6, 7, 8, 9, 10
+"""N m/rad; kg; kg m and kg m^2 about their own joints, as if they were rigid; kg/m."""
+STRENGTH, SLOWNESS = 11, 12
+"""Of length x stiffness; of length x the inertia with which a child swings at its own frequency."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,23 +61,24 @@ class PrintedMerges:
 
 def printed_merges(hierarchy: Hierarchy) -> PrintedMerges:
     """Simplified links, from the tips to the trunk."""
-    model = hierarchy.model
-    skeleton, rods = model.skeleton, model.rods
-    drag = np.trace(hierarchy.influence.drag, axis1=1, axis2=2) / 3.0
+    model, table = hierarchy.model, pair_table()
+    vector, carrier = model.skeleton.vector, hierarchy.hangs_on
+    sums = np.zeros((len(hierarchy.child), SUM_COUNT))
+    sums[: model.link_count] = _single_links(hierarchy)
+    order = preorder(hierarchy.child, hierarchy.root)
+    _merge_all(order, hierarchy.child, vector, sums, table.displacement, table.rate, table.single)
+    axis = np.where((carrier >= 0)[:, None], vector[carrier], np.array([0.0, 0.0, 1.0]))
+    direction = np.array([_mean_direction(row, along) for row, along in zip(sums, axis, strict=True)])
+    inertia = sums[:, SLOWNESS] / sums[:, LENGTH]
+    # A link that nothing grows from keeps its own oscillator, whose frequency is that of its stem.
+    bare = np.flatnonzero((hierarchy.child[: model.link_count] < 0).all(axis=1))
+    inertia[bare] = model.joint_inertia[bare].mean(axis=1)
+    number = sums[:, NUMBER]
     return PrintedMerges(
-        *_merge_all(
-            preorder(hierarchy.child, hierarchy.root),
-            hierarchy.child,
-            skeleton.vector,
-            skeleton.attach,
-            model.drag.centre,
-            drag,
-            1.0 / rods.compliance.mean(axis=1),
-            rods.mass,
-            rods.moment,
-            rods.inertia,
-            model.joint_inertia.mean(axis=1),
-        )
+        arm=direction * (sums[:, LENGTH] / number)[:, None],
+        stiffness=sums[:, STRENGTH] / sums[:, LENGTH],
+        inertia=inertia,
+        drag=sums[:, DRAG] / number,
     )
 
 
@@ -84,13 +98,10 @@ def printed_level(hierarchy: Hierarchy, merges: PrintedMerges, tolerance: float)
     skeleton, arm = hierarchy.model.skeleton, merges.arm[nodes]
     rotation = (merges.drag[nodes] / merges.stiffness[nodes])[:, None, None] * _cross_matrix(arm)
     sway = -np.einsum("gij,gjk->gik", _cross_matrix(arm), rotation)
-    carrier, first = hierarchy.hangs_on[nodes], hierarchy.first[nodes]
-    joint = np.where((carrier >= 0)[:, None], skeleton.base[carrier], 0.0)
+    carrier = hierarchy.hangs_on[nodes]
     frequency = merges.frequency[nodes]
     damping = np.full(len(nodes), hierarchy.model.damping_ratio.mean())
     constants = level.group_constants.copy()
-    constants[:, CENTRE : CENTRE + 3] = skeleton.base[first] - joint + arm
-    constants[:, COUPLE : COUPLE + 9] = 0.0
     constants[:, SWAY : SWAY + 9] = sway.reshape(-1, 9)
     constants[:, GROUP_MOBILITY] = level.time_step * frequency**2 * np.linalg.norm(sway, ord=2, axis=(1, 2))
     constants[:, GROUP_STEP : GROUP_STEP + 4] = exact_step(frequency, damping, level.time_step)
@@ -111,110 +122,85 @@ def _cross_matrix(vectors: Doubles) -> Doubles:
     return np.array(rows).transpose(2, 0, 1)
 
 
-@njit(cache=True)
-def parent_child(k_p, k_c, length_p, length, inertia_p, mass_c, moment_c, inertia_c):  # type: ignore[no-untyped-def]
-    """Stiffness and inertia of one link in place of a parent and its only child, in line (PHYSICS B3).
-
-    Args:
-        k_p: stiffness of the parent's joint, N m/rad.
-        k_c: of the child's.
-        length_p: from the parent's joint to the child's, m.
-        length: from the parent's joint to the child's tip, m.
-        inertia_p: of the parent alone about its joint, kg m^2.
-        mass_c: of the child, kg.
-        moment_c: first moment of the child about its joint, kg m.
-        inertia_c: of the child about its joint, kg m^2.
-
-    Returns:
-        Stiffness with the pair's static tip deflection, inertia with its lowest frequency.
-    """
-    share = (length - length_p) / length
-    stiffness = 1.0 / (1.0 / k_p + share * share / k_c)
-    # Generalised eigenproblem K x = omega^2 M x in relative angles; 1 / omega^2 is the larger root.
-    m12 = length_p * moment_c + inertia_c
-    m11 = inertia_p + mass_c * length_p**2 + 2.0 * length_p * moment_c + inertia_c
-    a, b, c = m11 / k_p, inertia_c / k_c, m12 / np.sqrt(k_p * k_c)
-    slowest = 0.5 * (a + b) + np.sqrt((0.5 * (a - b)) ** 2 + c * c)
-    return stiffness, stiffness * slowest
+def _single_links(hierarchy: Hierarchy) -> Doubles:
+    """(L, SUM_COUNT) every link as an only child of which nothing grows."""
+    model = hierarchy.model
+    skeleton, rods = model.skeleton, model.rods
+    unit = skeleton.vector / skeleton.length[:, None]
+    sums = np.empty((model.link_count, SUM_COUNT))
+    sums[:, NUMBER] = 1.0
+    sums[:, LENGTH] = model.drag.centre * skeleton.length
+    sums[:, DRAG] = np.trace(hierarchy.influence.drag, axis1=1, axis2=2) / 3.0
+    sums[:, DIRECTION : DIRECTION + 3] = sums[:, DRAG, None] * unit
+    sums[:, BASE] = skeleton.attach
+    sums[:, STIFFNESS] = 1.0 / rods.compliance.mean(axis=1)
+    sums[:, MASS], sums[:, MOMENT], sums[:, INERTIA] = rods.mass, rods.moment * skeleton.length, rods.inertia
+    sums[:, STRENGTH] = sums[:, LENGTH] * sums[:, STIFFNESS]
+    sums[:, SLOWNESS] = sums[:, LENGTH] * sums[:, INERTIA]
+    return sums
 
 
 @njit(cache=True)
 def _merge_all(  # type: ignore[no-untyped-def]
-    order,
-    child,
-    vector,
-    attach,
-    drag_centre,
-    own_drag,
-    own_stiffness,
-    own_mass,
-    own_moment,
-    own_inertia,
-    joint_inertia,
-):
-    """Arm, stiffness, inertia and drag of every node's simplified link, children before parents."""
-    count = len(child)
-    arm = np.zeros((count, 3))
-    stiffness, inertia, drag = np.zeros(count), np.zeros(count), np.zeros(count)
-    mass, moment, whole = np.zeros(count), np.zeros(count), np.zeros(count)
-    # What the children pass on to the parent together, beside what one averaged child moves by.
-    all_stiffness, all_drag = np.zeros(count), np.zeros(count)
-    base, number = np.zeros(count), np.ones(count)
+    order: Ints, child: Ints, vector: Doubles, sums: Doubles, displacement, rate, single
+) -> None:
+    """Sums of every node, children before parents; those of single links come in and are replaced."""
     for node in order[::-1]:
-        one, other = child[node, 0], child[node, 1]
-        if one >= 0 and other >= 0:
-            a, b = one, other
-        else:
-            a = b = max(one, other)
-        limb = node < len(attach)
-        if a >= 0:
-            # Child/child: averages over all the children that the two stand for.
-            n = number[a] + (number[b] if b != a else 0.0)
-            s = number[a] / n
-            la, lb = np.sqrt(np.sum(arm[a] ** 2)), np.sqrt(np.sum(arm[b] ** 2))
-            length = s * la + (1.0 - s) * lb
-            weight = s * drag[a] * arm[a] / la + (1.0 - s) * drag[b] * arm[b] / lb
-            size = np.sqrt(np.sum(weight**2))
-            c_drag = s * drag[a] + (1.0 - s) * drag[b]
-            if size < SHORTEST_MEAN * c_drag:
-                axis = vector[node] if limb else arm[a]
-                weight, size = axis, np.sqrt(np.sum(axis**2))
-            c_arm = weight / size * length
-            wa = s * la / max(length, 1e-12)
-            c_stiffness = wa * stiffness[a] + (1.0 - wa) * stiffness[b]
-            c_inertia = wa * inertia[a] + (1.0 - wa) * inertia[b]
-            c_mass = mass[a] + (mass[b] if b != a else 0.0)
-            c_moment = moment[a] + (moment[b] if b != a else 0.0)
-            c_whole = whole[a] + (whole[b] if b != a else 0.0)
-            k_all = all_stiffness[a] + (all_stiffness[b] if b != a else 0.0)
-            drag_all = all_drag[a] + (all_drag[b] if b != a else 0.0)
-            c_base = s * base[a] + (1.0 - s) * base[b]
-        if not limb:
-            arm[node], stiffness[node], inertia[node], drag[node] = c_arm, c_stiffness, c_inertia, c_drag
-            mass[node], moment[node], whole[node] = c_mass, c_moment, c_whole
-            base[node], number[node], all_stiffness[node], all_drag[node] = c_base, n, k_all, drag_all
-            continue
-        base[node] = attach[node]
-        d = vector[node]
-        length_p = np.sqrt(np.sum(d**2))
-        if a < 0:
-            arm[node], stiffness[node] = drag_centre[node] * d, own_stiffness[node]
-            inertia[node], drag[node] = joint_inertia[node], own_drag[node]
-            mass[node], moment[node], whole[node] = (
-                own_mass[node],
-                own_moment[node] * length_p,
-                own_inertia[node],
-            )
-        else:
-            arm[node] = c_base * d + c_arm
-            length = np.sqrt(np.sum(arm[node] ** 2))
-            at = min(c_base * length_p, 0.999 * length)
-            stiffness[node], inertia[node] = parent_child(
-                own_stiffness[node], k_all, at, length, own_inertia[node], c_mass, c_moment, c_whole
-            )
-            drag[node] = own_drag[node] + drag_all
-            mass[node] = own_mass[node] + c_mass
-            moment[node] = own_moment[node] * length_p + c_mass * at + c_moment
-            whole[node] = own_inertia[node] + c_mass * at * at + 2.0 * at * c_moment + c_whole
-        all_stiffness[node], all_drag[node] = stiffness[node], drag[node]
-    return arm, stiffness, inertia, drag
+        beyond = np.zeros(SUM_COUNT)
+        for k in range(2):
+            if child[node, k] >= 0:
+                beyond += sums[child[node, k]]
+        if node >= len(vector):
+            sums[node] = beyond
+        elif beyond[NUMBER] > 0.0:
+            merge_parent_child(sums[node], vector[node], beyond, displacement, rate, single)
+
+
+@njit(cache=True)
+def merge_parent_child(parent, vector, beyond, displacement, rate, single):  # type: ignore[no-untyped-def]
+    """One link in place of a link and the averaged child that grows from it.
+
+    The child turns about its joint with all its children's stiffness, mass and drag, and swings at its own frequency
+    while the parent is still.
+
+    Args:
+        parent: (SUM_COUNT,) the parent as an only child; overwritten with the merged link.
+        vector: (3,) the parent from base to tip, m.
+        beyond: (SUM_COUNT,) sums over its children.
+        displacement: of the table of pairs.
+        rate: of the table of pairs.
+        single: of the table of pairs.
+    """
+    k_p, size = parent[STIFFNESS], np.sqrt(np.sum(vector**2))
+    unit, direction = vector / size, _mean_direction(beyond, vector)
+    length_p = beyond[BASE] / beyond[NUMBER] * size
+    length_c = beyond[LENGTH] / beyond[NUMBER]
+    cosine = min(max(np.sum(unit * direction), -1.0), 1.0)
+    angle = min(np.arccos(cosine), 0.5 * np.pi)
+    ratio = length_c / max(length_p, 1e-9 * length_c)
+    stiffness = k_p * look_up_stiffness(displacement, single, beyond[STIFFNESS] / k_p, ratio, angle)
+
+    mass, moment_c = beyond[MASS] * length_p, beyond[MOMENT]
+    inertia = parent[INERTIA] + mass * length_p + 2.0 * length_p * moment_c * cosine + beyond[INERTIA]
+    rods, density, share = equal_rods(length_p, angle, inertia, moment_c, beyond[INERTIA])
+    spring = share * beyond[STRENGTH] / beyond[SLOWNESS] * inertia / k_p
+    pace = look_up_rate(rate, single, spring, rods, angle, density)
+
+    arm = length_p * unit + length_c * direction
+    length = np.sqrt(np.sum(arm**2))
+    parent[MOMENT] = np.sum(arm * ((parent[MOMENT] + mass) * unit + moment_c * direction)) / length
+    parent[MASS] += beyond[MASS]
+    parent[DRAG] += beyond[DRAG]
+    parent[DIRECTION : DIRECTION + 3] = parent[DRAG] * arm / length
+    parent[LENGTH], parent[STIFFNESS], parent[INERTIA] = length, stiffness, inertia
+    parent[STRENGTH] = length * stiffness
+    parent[SLOWNESS] = length * stiffness * inertia / (k_p * pace**2)
+
+
+@njit(cache=True)
+def _mean_direction(sums, axis):  # type: ignore[no-untyped-def]
+    """Unit vector of the averaged child, or of the axis that carries the children where they point apart."""
+    mean = sums[DIRECTION : DIRECTION + 3]
+    if np.sqrt(np.sum(mean**2)) < SHORTEST_MEAN * sums[DRAG]:
+        mean = axis
+    return mean / np.sqrt(np.sum(mean**2))
