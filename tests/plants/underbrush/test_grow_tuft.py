@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from windswept.errors import BudgetError, InputError
-from windswept.plants.underbrush import build_blade, grow_tuft, load_underbrush, underbrush_names
+from windswept.plants.underbrush import Blade, build_blade, grow_tuft, load_underbrush, underbrush_names
 
 
 @pytest.mark.parametrize("name", underbrush_names())
@@ -73,13 +73,26 @@ def test_stiffness_of_a_tube() -> None:
     assert blade.mass.sum() == pytest.approx(700 * 0.56 * np.pi * (outer**2 - inner**2) / 4)
 
 
+def sizes(kind: Blade) -> np.ndarray:
+    """(count,) mean sizes on one parent."""
+    return np.linspace(1.0, kind.component.last_size, kind.component.count)
+
+
+def test_leaflets_grow_less_to_the_tip_of_a_frond() -> None:
+    tuft = grow_tuft(load_underbrush("male_fern"))
+    leaflets = tuft.blade_parent == 0
+    order = np.argsort(tuft.blade_attach[leaflets])
+    size = tuft.blade_size[leaflets][order]
+    np.testing.assert_allclose(size, np.linspace(1.0, 0.36, 40), rtol=0.061)
+
+
 def test_a_stalk_bears_what_hangs_on_it() -> None:
     species = load_underbrush("oxeye_daisy")
     stem, *others = (
         k for k in grow_tuft(species).kinds if k.component.name in ("stem", "stem_leaf", "disc", "ray")
     )
     bare = build_blade(stem.component)
-    hung = sum(k.component.count * k.mass.sum() for k in others)
+    hung = sum(np.sum(sizes(k) ** 3.5) * k.mass.sum() for k in others)
     assert stem.mass.sum() == pytest.approx(bare.mass.sum() + hung)
     flower = sum(k.component.count * k.mass.sum() for k in others if k.component.name != "stem_leaf")
     assert stem.mass[-1] == pytest.approx(bare.mass[-1] + flower)

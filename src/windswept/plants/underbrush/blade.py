@@ -57,6 +57,16 @@ class Blade:
         """Whether its cross-section is a tube."""
         return self.component.shape == "round"
 
+    @property
+    def mass_power(self) -> float:
+        """By which power of size the mass grows: length x width x thickness."""
+        return 4.0 if self.round else 3.5
+
+    @property
+    def area_power(self) -> float:
+        """By which power of size the area grows: length x width."""
+        return 2.5 if self.round else 2.0
+
 
 def build_blade(component: Component) -> Blade:
     """Blade of a component of size 1 that carries nothing yet."""

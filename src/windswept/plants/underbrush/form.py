@@ -49,6 +49,8 @@ class Component(Form):
     """Along the blade."""
     length_v: Annotated[float, Field(ge=0, le=0.9)] = 0.0
     """By what fraction lengths differ."""
+    last_size: Annotated[float, Field(ge=0.05, le=20)] = 1.0
+    """Size of the last one on a parent over that of the first, as the leaflets of a fern grow less to its tip."""
     width_mm: Annotated[float, Field(gt=0, le=1000)]
     """Largest width; the diameter of a tube."""
     thickness_mm: Annotated[float, Field(gt=0, le=100)]

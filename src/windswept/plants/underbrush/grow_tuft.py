@@ -75,11 +75,13 @@ def carrying(species: UnderbrushSpecies) -> tuple[Blade, ...]:
         place = np.linspace(component.attach_from, component.attach_to, component.count)
         parent = blades[above]
         section = np.minimum((place * parent.section_count).astype(int), parent.section_count - 1)
-        hung = np.bincount(section, minlength=parent.section_count)
+        size = _mean_sizes(component, component.count)
+        mass, area = size ** blades[kind].mass_power, size ** blades[kind].area_power
+        hung_mass, hung_area = (np.bincount(section, part, parent.section_count) for part in (mass, area))
         blades[above] = replace(
             parent,
-            mass=parent.mass + hung * blades[kind].mass.sum(),
-            area=parent.area + hung * blades[kind].area.sum(),
+            mass=parent.mass + hung_mass * blades[kind].mass.sum(),
+            area=parent.area + hung_area * blades[kind].area.sum(),
         )
     return tuple(blades)
 
@@ -99,9 +101,14 @@ def _sprout(
         if parent < 0:
             frame, attach = frame @ GROUND, np.zeros(count)
             root[:, :2] = _roots(component, frame, rng)
-        size = 1.0 + component.length_v * rng.uniform(-1.0, 1.0, count)
+        size = _mean_sizes(component, count) * (1.0 + component.length_v * rng.uniform(-1.0, 1.0, count))
         columns.append([np.full(count, kind), np.full(count, parent), attach, root, frame, size])
     return [np.concatenate(column) for column in zip(*columns, strict=True)]
+
+
+def _mean_sizes(component: Component, count: int) -> Doubles:
+    """(count,) size of the first to the last one on a parent."""
+    return np.linspace(1.0, component.last_size, count) if component.parent else np.ones(count)
 
 
 def _frames(component: Component, count: int, rng: np.random.Generator) -> Doubles:
