@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 
@@ -97,6 +98,12 @@ def start_field(plan: FieldPlan, wind: Wind, time: float = 0.0) -> Field:
 
 def sample_ambient(grid: Grid, wind: Wind, time: float) -> Floats:
     """(nx, ny, 3) the wind at its reference height, where its profile is 1, m/s."""
-    points = grid.ground_points()
-    height = np.full(len(points), wind.profile.reference_height, np.float32)
+    points, height = _reference_points(grid, wind.profile.reference_height)
     return velocity(wind, points, height, time).reshape(*grid.shape[:2], 3)
+
+
+@lru_cache(maxsize=4)
+def _reference_points(grid: Grid, height: float) -> tuple[Floats, Floats]:
+    """(nx * ny, 3) x and y of every column of nodes, and (nx * ny,) the one height, m."""
+    points = grid.ground_points()
+    return points, np.full(len(points), height, np.float32)

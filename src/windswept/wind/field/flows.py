@@ -38,6 +38,7 @@ def flow_into(
         uniform_velocity(primitives).astype(np.float32),
         line_rows(primitives, time),
         jet_rows.reshape(-1, 5),
+        np.exp(-grid.heights / np.array([[jet.layer] for jet in jets]).reshape(-1, 1)).astype(np.float32),
     )
 
 
@@ -63,7 +64,7 @@ def jet_velocity(jet: Jet, points: Reals) -> Reals:
 
 
 @njit(parallel=True, cache=True, fastmath=FAST_MATH)
-def _add_flows(flow, frame, uniform, lines, jets):  # type: ignore[no-untyped-def]
+def _add_flows(flow, frame, uniform, lines, jets, near_ground):  # type: ignore[no-untyped-def]
     """Slabs of equal x over the threads, heights innermost."""
     nx, ny = flow.shape[1:3]
     for i in prange(nx):
@@ -75,7 +76,7 @@ def _add_flows(flow, frame, uniform, lines, jets):  # type: ignore[no-untyped-de
             for n in range(len(lines)):
                 _add_line(lines[n], x, y, frame[4], u, v, w)
             for n in range(len(jets)):
-                _add_jet(jets[n], x, y, frame[4], u, v, w)
+                _add_jet(jets[n], near_ground[n], x, y, u, v, w)
 
 
 @njit(cache=True, fastmath=FAST_MATH)
@@ -94,15 +95,15 @@ def _add_line(line, x, y, dz, u, v, w):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, fastmath=FAST_MATH)
-def _add_jet(jet, x, y, dz, u, v, w):  # type: ignore[no-untyped-def]
+def _add_jet(jet, near_ground, x, y, u, v, w):  # type: ignore[no-untyped-def]
     """One jet's flow in a column of nodes, as ``jet_velocity``."""
     radius, speed, layer = jet[2], jet[3], jet[4]
     qx, qy = x - jet[0], y - jet[1]
     squared = max(qx * qx + qy * qy, _F(1e-6) * radius * radius)
     inside = np.exp(-squared / (radius * radius))
     outward = _F(0.5) * speed * radius * radius / layer * (_F(1.0) - inside) / squared
+    out_x, out_y, down = outward * qx, outward * qy, speed * inside
     for k in range(len(u)):
-        near_ground = np.exp(-_F(k) * dz / layer)
-        u[k] += outward * qx * near_ground
-        v[k] += outward * qy * near_ground
-        w[k] -= speed * inside * (_F(1.0) - near_ground)
+        u[k] += out_x * near_ground[k]
+        v[k] += out_y * near_ground[k]
+        w[k] -= down * (_F(1.0) - near_ground[k])
