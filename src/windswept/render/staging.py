@@ -6,19 +6,13 @@ import numpy as np
 
 from windswept.geometry.curves import build_geometry
 from windswept.geometry.detail import DetailRules
-from windswept.gpu.frame import Camera, Frame, Ground, PosedPlants
+from windswept.gpu.frame import FLUTTER_SPEED, LARGEST_FLUTTER, Camera, Frame, Ground, PosedPlants
 from windswept.gpu.renderer import Renderer
 from windswept.plants.plant import Floats, Ints, Look
 from windswept.scene.camera import View, view_at
 from windswept.scene.moving_kind import MovingKind
 from windswept.scene.simulation import Simulation
 from windswept.scene.terrain import Terrain
-
-LARGEST_FLUTTER = 0.6
-"""How far a readily fluttering leaf trembles in a storm, rad."""
-FLUTTER_SPEED = 5.0
-"""Wind speed at which it trembles with 63 % of that, m/s."""
-
 
 LEVEL_COLOURS = (
     (0.55, 0.03, 0.03),
