@@ -8,14 +8,14 @@ import math
 
 import click
 
-NAMES = ("springs", "multibody", "levels", "forest", "bend", "blades", "field", "growth", "draw")
+NAMES = ("springs", "multibody", "levels", "forest", "bend", "blades", "field", "growth", "spread", "draw")
 
 
 @click.command("bench")
 @click.argument("names", nargs=-1, type=click.Choice(NAMES), metavar="[NAME]...")
 @click.option("--json", "as_json", is_flag=True, help="One flat JSON object of name: value.")
 def command(names: tuple[str, ...], as_json: bool) -> None:
-    """Measure speed on this machine: springs, multibody, levels, forest, bend, blades, field, growth, draw, or all.
+    """Measure speed on this machine: springs, multibody, levels, forest, bend, blades, field, growth, spread, draw, or all.
 
     Example: windswept bench springs --json
     """

@@ -113,6 +113,7 @@ def _build_ecology(source: str, sorts: Sorts, nutrients: list[str]) -> Ecology:
         slope=np.concatenate([slope, [[0.0, np.inf]]]),
         ground=np.array([form.ground_m for form in forms] + [(-np.inf, np.inf)]),
         vigour=np.array([form.vigour for form in forms] + [1.0]),
+        turnover=np.array([form.turnover for form in forms] + [0.0]),
         offspring=np.array([form.offspring for form in forms] + [0]),
         distance=np.array([form.distance_m for form in forms] + [1.0]),
         most=np.array([form.most for form in forms] + [0]),

@@ -37,6 +37,8 @@ class Ecology:
     """(S, 2) least and greatest height of the ground, m."""
     vigour: Reals
     """(S,) suitability of the best ground."""
+    turnover: Reals
+    """(S,) chance of death in a round where the ground does not suit at all; 0 where it suits perfectly."""
     offspring: Ints
     """(S,) seeds of a plant in a round."""
     distance: Reals

@@ -30,8 +30,6 @@ from windswept.scene.spread.survive import feed, survivors
 
 Reals = NDArray[np.float64]
 
-TURNOVER = 0.3
-"""Chance that a plant dies in a round where the ground does not suit it at all."""
 POINT_SEEDS = 16
 """Seeds of a propagation point over those of one plant."""
 
@@ -58,13 +56,13 @@ def spread(
     plants = placed
     cells = fresh_cells(plot.grid, ecology, plot.supply)
     for life_key, seed_key in keys[:-1]:
-        plants = plants.only(survivors(site, cells, plants, TURNOVER, life_key))
+        plants = plants.only(survivors(site, cells, plants, ecology.turnover, life_key))
         cells = fresh_cells(plot.grid, ecology, plot.supply)
         plants = plants.only(feed(site, cells, plants))
         parents = _parents(plants.with_more(points), ecology, points.count)
         seeds = shed(site, cells, sort_stems(site.claims, plants), parents, seed_key)
         plants = settle(site, cells, seeds, plants, most + placed.count)
-    plants = plants.only(survivors(site, cells, plants, 0.0, keys[-1, 0]))
+    plants = plants.only(survivors(site, cells, plants, np.zeros(ecology.count), keys[-1, 0]))
     return plants.only(~plants.placed)
 
 

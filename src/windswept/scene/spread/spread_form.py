@@ -55,7 +55,7 @@ class SpreadSpeciesForm(Form):
     need: Annotated[list[NeedForm], Field(max_length=64)] = Field(default=[])
     """`[[spread.species.need]]`, any number."""
     radius_m: Radius
-    """Radius of the ground that its foot fills; no two stems stand closer than the sum of theirs."""
+    """Radius of the ground that its stem or tuft fills; no two stand closer than the sum of theirs."""
     spacing_m: Annotated[float, Field(ge=0.02, le=100)] | None = None
     """Least distance between two of this species; left out: twice `radius_m`."""
     reach_m: Radius | None = None
@@ -74,6 +74,8 @@ class SpreadSpeciesForm(Form):
     """From the lowest to the highest ground it grows on."""
     vigour: Annotated[float, Field(gt=0, le=1)] = 1.0
     """How well it does where it lacks nothing: a strong grass 1, a plant that bears poor ground less."""
+    turnover: Share = 0.3
+    """Chance that a plant dies in a round where the ground does not suit it at all; trees live longer."""
     offspring: Annotated[int, Field(ge=1, le=64)] = 4
     """Seeds that a plant sheds in a round; a propagation point sheds 16 times as many."""
     distance_m: Annotated[float, Field(ge=0.05, le=1000)] = 1.5

@@ -12,16 +12,17 @@ from windswept.scene.spread.population import Population
 from windswept.scene.spread.site import Site
 
 Marks = NDArray[np.bool_]
+Reals = NDArray[np.float64]
 
 
-def survivors(site: Site, cells: Cells, plants: Population, turnover: float, key: np.uint64) -> Marks:
+def survivors(site: Site, cells: Cells, plants: Population, turnover: Reals, key: np.uint64) -> Marks:
     """(P,) which plants live on: those in the right light, unless chance takes them.
 
     Args:
         site: the ground and the species.
         cells: the light.
         plants: all that stand there.
-        turnover: chance of death where the ground does not suit at all; 0 where it suits perfectly.
+        turnover: (S,) chance of death where the ground does not suit at all; 0 where it suits perfectly.
         key: of the round's random numbers.
     """
     lives = plants.placed.copy()
@@ -40,7 +41,7 @@ def _survive(  # type: ignore[no-untyped-def]
     for plant in prange(len(x)):
         kind = species[plant]
         suits = fit[row_of(grid, y[plant]), column_of(grid, x[plant]), kind]
-        lucky = chance(key, plant, 0) >= turnover * (1.0 - suits)
+        lucky = chance(key, plant, 0) >= turnover[kind] * (1.0 - suits)
         lives[plant] |= lucky and is_lit(grid, depth, deepest, kind, x[plant], y[plant])
 
 
