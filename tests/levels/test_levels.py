@@ -20,9 +20,9 @@ from windswept.levels import (
 )
 from windswept.levels.hierarchy import preorder
 from windswept.levels.influence import REFERENCE_SPEED
-from windswept.levels.measure import PLACEMENTS, training_wind, wind_on
 from windswept.levels.static_angles import static_angles
 from windswept.levels.static_shapes import STATED_WIND
+from windswept.levels.training_wind import PLACEMENTS, training_wind, wind_on
 from windswept.motion import Level, Model, Stepper, build_model, finest_level, pose_links, rest_state
 from windswept.plants.plant import Material
 from windswept.plants.weber_penn import grow

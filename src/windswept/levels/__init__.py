@@ -9,16 +9,20 @@
 """
 
 from windswept.levels.carry_over import carry_over, joint_motion_of
-from windswept.levels.choose import Eye, choose, fill_registers
+from windswept.levels.choose import Eye, away_from, choose, fill_registers, outside_view, seen_distance
 from windswept.levels.cut_level import cut_level
 from windswept.levels.hierarchy import Hierarchy, simplify
 from windswept.levels.ladder import Ladder, build_ladder
-from windswept.levels.measure import measure, with_measured_errors
+from windswept.levels.measure import bound_errors, measure, measured_ladder, with_measured_errors
+from windswept.levels.near_cut import NodeBalls, near_cut, node_balls
 
 __all__ = [
     "Eye",
     "Hierarchy",
     "Ladder",
+    "NodeBalls",
+    "away_from",
+    "bound_errors",
     "build_ladder",
     "carry_over",
     "choose",
@@ -26,6 +30,11 @@ __all__ = [
     "fill_registers",
     "joint_motion_of",
     "measure",
+    "measured_ladder",
+    "near_cut",
+    "node_balls",
+    "outside_view",
+    "seen_distance",
     "simplify",
     "with_measured_errors",
 ]

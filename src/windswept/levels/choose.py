@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,14 @@ from windswept.levels.ladder import Ladder
 from windswept.motion.lanes import WIDTH
 from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats, Ints
+
+Measure = Callable[["Eye", Floats, float], Doubles]
+"""(eye, (P, 3) positions, radius) -> (P,) factors, at least 1, by which placements count as farther away."""
+
+NEAREST = 0.1
+"""No part of a plant is seen from nearer than this, m."""
+OUT_OF_VIEW = 4.0
+"""A plant that cannot be seen is treated as this many times farther away."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +36,12 @@ class Eye:
     """Error that may be seen, pixels."""
     dead_band: float = 0.1
     """A placement goes back to a finer level only when it is this much nearer than where it left it."""
+    forward: Floats | None = None
+    """(3,) where it looks, a unit vector; None for all round."""
+    aspect: float = 16.0 / 9.0
+    """Width of the picture over its height."""
+    measures: tuple[Measure, ...] = ()
+    """What else than distance makes errors harder to see."""
 
     def metres(self, distance: Doubles) -> Doubles:
         """Error that is as large as the tolerance at a distance, m (PHYSICS: E = 2 e D tan(fov/2) / H)."""
@@ -37,13 +52,54 @@ class Eye:
         return error * self.height / (2.0 * self.tolerance * np.tan(0.5 * self.fov_y))
 
 
+def outside_view(eye: Eye, position: Floats, radius: float) -> Doubles:
+    """OUT_OF_VIEW for placements that are wholly outside the picture, 1 for the others."""
+    if eye.forward is None:
+        return np.ones(len(position))
+    towards = position - eye.position
+    away = np.maximum(np.linalg.norm(towards, axis=1), NEAREST)
+    corner = np.arctan(np.tan(0.5 * eye.fov_y) * np.hypot(1.0, eye.aspect))
+    off = np.arccos(np.clip(towards @ eye.forward / away, -1.0, 1.0)) - np.arcsin(
+        np.minimum(radius / away, 1.0)
+    )
+    return np.where((off > corner) & (away > radius), OUT_OF_VIEW, 1.0)
+
+
+def away_from(point: Floats, reach: float) -> Measure:
+    """Measure for a picture whose subject is at a point: what is n times farther from it than ``reach`` counts so.
+
+    Args:
+        point: (3,) m.
+        reach: within it nothing is spared, m.
+    """
+
+    def measure(eye: Eye, position: Floats, radius: float) -> Doubles:
+        return np.maximum((np.linalg.norm(position - point, axis=1) - radius) / reach, 1.0)
+
+    return measure
+
+
+def seen_distance(eye: Eye, position: Floats, radius: float) -> Doubles:
+    """(P,) distance from which each placement is seen: to its nearest point, times what else makes it harder to see.
+
+    Args:
+        eye: who looks.
+        position: (P, 3) of the roots, m.
+        radius: of a ball round the root that holds the plant, m.
+    """
+    distance = np.maximum(np.linalg.norm(position - eye.position, axis=1) - radius, NEAREST)
+    for measure in eye.measures:
+        distance = distance * measure(eye, position, radius)
+    return distance
+
+
 def choose(ladder: Ladder, eye: Eye, distance: Doubles, current: Ints) -> Ints:
     """Level of every placement.
 
     Args:
         ladder: of their plant.
         eye: who looks.
-        distance: (P,) from the eye to the nearest point of each placement, m.
+        distance: (P,) from which each placement is seen, see `seen_distance`, m.
         current: (P,) level each is at now.
 
     Returns:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -104,34 +106,34 @@ def compact_level(hierarchy: Hierarchy, links: Ints, nodes: Ints) -> Level:
 def group_constants(hierarchy: Hierarchy, nodes: Ints) -> tuple[Floats, Ints]:
     """Constants of nodes as the kernel reads them, and the probe nearest to each node's centre of pressure."""
     model, influence = hierarchy.model, hierarchy.influence
-    skeleton = model.skeleton
-    first, stop, carrier = hierarchy.first[nodes], hierarchy.stop[nodes], hierarchy.hangs_on[nodes]
+    skeleton, carrier = model.skeleton, hierarchy.hangs_on[nodes]
+    sizes = hierarchy.stop[nodes] - hierarchy.first[nodes]
+    starts = np.cumsum(sizes) - sizes
+    group = np.repeat(np.arange(len(nodes), dtype=np.int32), sizes)
+    member = np.arange(len(group)) + np.repeat(hierarchy.first[nodes] - starts, sizes)
 
-    def total(per_link: Doubles) -> Doubles:
-        """Sum over each node's range of links."""
-        summed = np.concatenate([np.zeros((1, *per_link.shape[1:])), np.cumsum(per_link, axis=0)])
-        return summed[stop] - summed[first]
+    def total(per_member: Doubles) -> Doubles:
+        """Sum over each node's links."""
+        return np.add.reduceat(per_member, starts, axis=0) if len(nodes) else per_member
 
-    at = skeleton.base + model.drag.centre[:, None] * skeleton.vector
-    drag = influence.drag
+    at = skeleton.base[member] + model.drag.centre[member, None] * skeleton.vector[member]
+    drag, leaf_drag = influence.drag[member], influence.leaf_drag[member]
     weight = np.trace(drag, axis1=1, axis2=2)
     whole = total(weight)
     centre = total(at * weight[:, None]) / whole[:, None]
     moment = total(np.cross(at[:, :, None], drag, axis=1))
     couple = moment - np.cross(centre[:, :, None], total(drag), axis=1)
+    own = influence.displacement[member] - _carried_displacement(hierarchy, carrier[group], at)
+    sway = _damped_sway(own, drag, weight, group, total)
 
     joint = np.where((carrier >= 0)[:, None], skeleton.base[carrier], 0.0)
-    sway = total(influence.displacement * weight[:, None, None]) / whole[:, None, None]
-    sway -= _carried_displacement(hierarchy, carrier, centre)
-    leaf_drag, wood_drag = total(influence.leaf_drag), total(influence.wood_drag)
-    leaf = np.trace(leaf_drag, axis1=1, axis2=2) / whole
-
+    leaf = total(np.trace(leaf_drag, axis1=1, axis2=2)) / whole
     frequency = hierarchy.frequency[nodes]
     damping = np.full(len(nodes), model.damping_ratio.mean())
     packed = np.zeros((len(nodes), GROUP_CONSTANT_COUNT), np.float32)
     packed[:, CENTRE : CENTRE + 3] = centre - joint
-    packed[:, FORCE_LEAF : FORCE_LEAF + 6] = _six(leaf_drag)
-    packed[:, FORCE_WOOD : FORCE_WOOD + 6] = _six(wood_drag)
+    packed[:, FORCE_LEAF : FORCE_LEAF + 6] = _six(total(leaf_drag))
+    packed[:, FORCE_WOOD : FORCE_WOOD + 6] = _six(total(influence.wood_drag[member]))
     packed[:, COUPLE : COUPLE + 9] = couple.reshape(-1, 9)
     packed[:, SWAY : SWAY + 9] = sway.reshape(-1, 9)
     packed[:, LEAF_FACTOR] = leaf
@@ -141,15 +143,36 @@ def group_constants(hierarchy: Hierarchy, nodes: Ints) -> tuple[Floats, Ints]:
     return packed, _nearest_probe(model.probe_position, centre)
 
 
-def _carried_displacement(hierarchy: Hierarchy, carrier: Ints, centre: Doubles) -> Doubles:
-    """(G, 3, 3) displacement of each centre per pressure if it moved rigidly with the link that carries it."""
+def _damped_sway(
+    own: Doubles, drag: Doubles, weight: Doubles, group: Ints, total: Callable[[Doubles], Doubles]
+) -> Doubles:
+    """(G, 3, 3) displacement per pressure whose rate damps a group as the rates of all its links do.
+
+    The mean displacement of the group's drag, made larger by virtual work: a link that moves much takes much work
+    from the wind by its displacement, and loses much of it by its speed.
+
+    Args:
+        own: (n, 3, 3) displacement of each member's drag per pressure, relative to the carrier.
+        drag: (n, 3, 3) drag tensors.
+        weight: (n,) their traces.
+        group: (n,) which group each member is in.
+        total: sums over the members of each group.
+    """
+    mean = total(own * weight[:, None, None]) / total(weight)[:, None, None]
+    work = np.einsum("nji,njk->nik", own, drag)
+    lost = total(np.einsum("nik,nki->n", work, own))
+    by_mean = total(np.einsum("nik,nki->n", work, mean[group]))
+    return mean * (lost / np.maximum(by_mean, 1e-30))[:, None, None]
+
+
+def _carried_displacement(hierarchy: Hierarchy, carrier: Ints, at: Doubles) -> Doubles:
+    """(n, 3, 3) displacement of each point per pressure if it moved rigidly with the link that carries it."""
     skeleton, influence = hierarchy.model.skeleton, hierarchy.influence
     d = skeleton.vector[carrier]
     lever = hierarchy.model.drag.centre[carrier, None] * d
     turn = influence.turn[carrier]
     base = influence.displacement[carrier] - np.cross(turn, lever[:, :, None], axis=1)
-    arm = centre - skeleton.base[carrier]
-    carried = base + np.cross(turn, arm[:, :, None], axis=1)
+    carried = base + np.cross(turn, (at - skeleton.base[carrier])[:, :, None], axis=1)
     return np.where((carrier >= 0)[:, None, None], carried, 0.0)
 
 

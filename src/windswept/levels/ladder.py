@@ -28,6 +28,10 @@ class Ladder:
     """Level K - 2 is `bend`: the whole plant follows the wind's pressure without inertia. K - 1 is still."""
     error: Doubles
     """(K,) 95 % of tips are nearer than this to where level 0 has them, m: estimated, or measured once measured."""
+    tolerance: Doubles
+    """(K,) reckoned error of the hierarchy's nodes at which each level is cut; 0 for level 0, as `bend` for still."""
+    bound: Doubles | None = None
+    """(K,) no tip is farther than this from where level 0 has it, in wind up to the stated speed, m; or None."""
 
     @property
     def oscillators(self) -> list[int]:
@@ -41,11 +45,12 @@ def build_ladder(hierarchy: Hierarchy) -> Ladder:
     Args:
         hierarchy: of the plant.
     """
-    levels = [finest_level(hierarchy.model)]
+    levels, cuts = [finest_level(hierarchy.model)], [0.0]
     for tolerance in _tolerances(hierarchy):
         level = cut_level(hierarchy, tolerance)
         if level.link_count + level.group_count < STEP * (levels[-1].link_count + levels[-1].group_count):
             levels.append(level)
+            cuts.append(float(tolerance))
     # Without inertia a group is an oscillator of endless frequency.
     frequencies = [level.group_frequency for level in levels] + [
         np.full(levels[-1].group_count, np.exp(LOG_HIGH))
@@ -57,7 +62,12 @@ def build_ladder(hierarchy: Hierarchy) -> Ladder:
     sway = np.linalg.norm(hierarchy.influence.tip, ord=2, axis=(1, 2))
     still = TYPICAL_TO_95 * float(np.sqrt(np.mean(sway**2)))
     levels += [_without_inertia(levels[-1]), _still(levels[-1])]
-    return Ladder(hierarchy, tuple(levels), hierarchy.pressure * np.array([*errors, still]))
+    return Ladder(
+        hierarchy=hierarchy,
+        levels=tuple(levels),
+        error=hierarchy.pressure * np.array([*errors, still]),
+        tolerance=np.array([*cuts, cuts[-1], cuts[-1]]),
+    )
 
 
 def estimated_error(hierarchy: Hierarchy, level: Level, group_frequency: Doubles) -> float:

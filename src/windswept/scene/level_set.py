@@ -34,6 +34,11 @@ class LevelSet:
         self.winds: tuple[Floats, Floats] | None = None
         """(M, B, 3) wind at both ends of the interval under way, m/s."""
 
+    @property
+    def oscillators(self) -> int:
+        """Links and groups that are stepped for each member."""
+        return self.level.link_count + self.level.group_count
+
     def slot(self, placement: int) -> int:
         """Slot of a member."""
         return self.members.index(placement)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from windswept.levels import Eye
+from windswept.levels import Eye, outside_view
 from windswept.motion import TIME_STEP
 from windswept.plants.plant import Floats, Plant
 from windswept.plants.pose import Pose
@@ -107,7 +107,15 @@ class Simulation:
         eye = self.eye
         if eye is None:
             view = view_at(self.scene.camera, now)
-            eye = Eye(view.eye, view.fov_y, self._picture_height, self._pixels)
+            forward = (view.target - view.eye) / np.linalg.norm(view.target - view.eye)
+            eye = Eye(
+                view.eye,
+                view.fov_y,
+                self._picture_height,
+                self._pixels,
+                forward=forward,
+                measures=(outside_view,),
+            )
         for kind in self.kinds:
             kind.change_levels(eye, now, at_once)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from windswept.levels import Ladder
-from windswept.levels.measure import training_wind, wind_on
+from windswept.levels.training_wind import training_wind, wind_on
 from windswept.motion import Level, Stepper, rest_state
 from windswept.motion.lanes import WIDTH
 from windswept.plants.plant import Plant

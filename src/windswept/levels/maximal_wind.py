@@ -1,0 +1,75 @@
+"""maximal_wind: the hardest winds up to a speed, to find the largest errors that a level can make."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from windswept.levels.static_shapes import STATED_WIND
+from windswept.levels.training_wind import PLACEMENTS, Air
+from windswept.motion import Level, Model
+from windswept.plants.plant import Floats
+
+TRIAL_SECONDS = 12.0
+"""Length of the trial, s."""
+REVERSAL = 1.5
+"""Time between two reversals of the wind, s."""
+FRONT_PERIOD = 4.0
+"""From one sharp front to the next, s; behind it the wind blows for half that time."""
+PAUSES = (0.15, 0.3, 0.6, 1.2, 2.4)
+"""How long the random wind holds a speed and direction, s."""
+
+
+def maximal_wind(model: Model, speed: float = STATED_WIND, seed: int = 0) -> Air:
+    """Eight winds at once that never exceed a speed and change as hard as wind can, and harder.
+
+    They blow at full speed at every height: a step, then calm; reversals; on and off at the plant's lowest and at its
+    middle frequency, which drives the motion up; sharp fronts that cross the crown at full and at half speed; a wind
+    that turns at the lowest frequency; a random sequence of speeds and directions.
+
+    Args:
+        model: of the plant.
+        speed: that is never exceeded, m/s.
+        seed: of the random wind.
+    """
+    lowest = float(model.stem_frequency[model.skeleton.stem[0]]) / (2.0 * np.pi)
+    middle = float(np.median(model.stem_frequency)) / (2.0 * np.pi)
+    times, drawn = _random_sequence(speed, np.random.default_rng(seed))
+
+    def blow(level: Level, time: float) -> Floats:
+        probes = level.probe_position
+        wind = np.zeros((PLACEMENTS, len(probes), 3), np.float32)
+        if time <= 0.0:
+            return wind
+        wind[0] = _along(speed * (time < 0.5 * TRIAL_SECONDS), 0.3)
+        wind[1] = _along(speed * (1.0 if time % (2.0 * REVERSAL) < REVERSAL else -1.0), 1.9)
+        wind[2] = _along(speed * (lowest * time % 1.0 < 0.5), 2.6)
+        wind[3] = _along(speed * (middle * time % 1.0 < 0.5), 4.0)
+        wind[4] = _fronts(probes, time, speed, speed, 0.8)
+        wind[5] = _fronts(probes, time, speed, 0.5 * speed, 3.9)
+        wind[6] = _along(speed, 2.0 * np.pi * lowest * time)
+        wind[7, :, :2] = drawn[np.searchsorted(times, time, side="right") - 1]
+        return wind
+
+    return blow
+
+
+def _along(speed: float, azimuth: float) -> Floats:
+    """(3,) horizontal wind."""
+    return np.array([speed * np.cos(azimuth), speed * np.sin(azimuth), 0.0], np.float32)
+
+
+def _fronts(probes: Floats, time: float, speed: float, travel: float, azimuth: float) -> Floats:
+    """(B, 3) wind behind sharp fronts that travel along an azimuth at a speed of their own."""
+    way = probes[:, 0] * np.cos(azimuth) + probes[:, 1] * np.sin(azimuth)
+    since = time - (way - way.min()) / travel
+    on = (since > 0.0) & (since % FRONT_PERIOD < 0.5 * FRONT_PERIOD)
+    return np.where(on[:, None], _along(speed, azimuth), np.float32(0.0))
+
+
+def _random_sequence(speed: float, rng: np.random.Generator) -> tuple[Floats, Floats]:
+    """(n,) times and (n, 2) winds from each of them on, a third of them calm."""
+    pauses = rng.choice(PAUSES, 400)
+    strength = speed * np.sqrt(rng.uniform(0.0, 1.0, 400)) * (rng.uniform(0.0, 1.0, 400) > 0.3)
+    azimuth = rng.uniform(0.0, 2.0 * np.pi, 400)
+    winds = strength[:, None] * np.column_stack([np.cos(azimuth), np.sin(azimuth)])
+    return (np.cumsum(pauses) - pauses).astype(np.float32), winds.astype(np.float32)
