@@ -15,7 +15,9 @@ NAMES = ("springs", "multibody", "levels", "forest", "bend", "blades", "field", 
 @click.argument("names", nargs=-1, type=click.Choice(NAMES), metavar="[NAME]...")
 @click.option("--json", "as_json", is_flag=True, help="One flat JSON object of name: value.")
 def command(names: tuple[str, ...], as_json: bool) -> None:
-    """Measure speed on this machine: springs, multibody, levels, forest, bend, blades, field, growth, spread, draw, or all.
+    """Measure speed on this machine, of some parts or of all.
+
+    Parts: springs, multibody, levels, forest, bend, blades, field, growth, spread and draw.
 
     Example: windswept bench springs --json
     """
