@@ -13,6 +13,7 @@ from windswept.levels.pair_table import (
     LOW,
     STEP,
     PairTable,
+    equal_rods,
     look_up_rate,
     look_up_stiffness,
     pair_table,
@@ -127,6 +128,25 @@ def test_some_nodes_made_again_are_those_shipped() -> None:
     assert np.abs(rate - table.rate[i, j, k, l]).max() < 2e-5
     # The table keeps the displacement of the lightest child: at rest, mass does not matter.
     assert np.abs(displacement - table.displacement[i, j, k]).max() < 2e-5
+
+
+def test_two_uniform_rods_stand_for_themselves() -> None:
+    angle, length, mass = 0.6, (0.8, 2.0), (1.0, 1.2)
+    pair = Pairs(np.ones((1, 2)), np.array([length]), np.array([mass]), np.array([angle]))
+    inertia_c = mass[1] * length[1] ** 2 / 3.0
+    moments = pair.inertia[0], 0.5 * mass[1] * length[1], inertia_c
+    ratio, density, share = equal_rods(length[0], angle, *moments)
+    assert ratio == pytest.approx(length[1] / length[0])
+    assert density == pytest.approx(mass[1] / length[1] / (mass[0] / length[0]))
+    assert share == pytest.approx(inertia_c / pair.inertia[0])
+
+
+def test_a_pair_unlike_any_rods_is_held_at_the_densest_child() -> None:
+    # All of the child's mass at its tip, and none in the parent.
+    ratio, density, share = equal_rods(1.0, 0.0, 4.0, 1.0, 1.0)
+    assert ratio == pytest.approx(1.5)
+    assert density == pytest.approx(np.exp(LOW[3] + STEP[3] * (COUNT[3] - 1)))
+    assert 0.2 < share < 0.3
 
 
 def test_beyond_its_edges_the_table_is_held() -> None:

@@ -14,7 +14,7 @@ Run ``python -m windswept.levels.pair_table`` to make the table again, to the sa
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
@@ -93,10 +93,10 @@ def _simulate(
     one = np.ones(len(angle))
     force = 0.5 * AIR_DENSITY * LEAF_AREA * STATED_SPEED**2
     length, mass = np.column_stack([one, length_ratio]), np.column_stack([one, density_ratio * length_ratio])
-    ratio = np.column_stack([one, stiffness_ratio])
-    reach = Pairs(ratio, length, mass, angle).reach
-    parent = force * reach * np.sum(1.0 / ratio, axis=1) / FARTHEST_TURN
-    pairs = Pairs(parent[:, None] * ratio, length, mass, angle)
+    soft = Pairs(np.column_stack([one, stiffness_ratio]), length, mass, angle)
+    reach = soft.reach
+    parent = force * reach * np.sum(1.0 / soft.stiffness, axis=1) / FARTHEST_TURN
+    pairs = replace(soft, stiffness=parent[:, None] * soft.stiffness)
     displacement, frequency = swing_pairs(pairs, force)
     return displacement * parent / (force * reach**2), frequency / np.sqrt(parent / pairs.inertia)
 
