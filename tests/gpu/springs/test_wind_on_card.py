@@ -48,7 +48,8 @@ def sampled(card: GpuSimulation, rung: int) -> np.ndarray:
     probes, room = int(row["probes"][1]), int(row["room"][3])
     count = room * probes * 2
     rows = card.card.read("wind", "<f4", 4 * int(row["room"][2]), 4 * count)
-    by_lane = rows.reshape(room // layouts.LANES, probes, 2, layouts.LANES, 4)
+    width = min(room, layouts.LANES)
+    by_lane = rows.reshape(room // width, probes, 2, width, 4)
     members = int(card.card.read("populations", "<u4")[rung])
     return by_lane.transpose(0, 3, 1, 2, 4).reshape(room, probes, 2, 4)[:members]
 

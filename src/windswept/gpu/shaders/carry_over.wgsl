@@ -24,10 +24,11 @@ fn rotation_of(first: u32, link: u32) -> vec4f {
 
 // Angle and rate about the first axis, then the second, of a joint at the level that it leaves.
 fn motion_before(rung: Rung, column: u32, listener: vec4u, shape: Shape, rotations: mat2x4f, limit: f32) -> vec4f {
-    if listener.x != NONE { return state[column + listener.x * LANES]; }
-    let row = column + (rung.links.y + 2u * listener.y) * LANES;
+    let stride = stride_of(rung);
+    if listener.x != NONE { return state[column + listener.x * stride]; }
+    let row = column + (rung.links.y + 2u * listener.y) * stride;
     let u = felt(rotations[0], rotations[1], state[row].xyz);
-    let rate = felt(rotations[0], rotations[1], state[row + LANES].xyz);
+    let rate = felt(rotations[0], rotations[1], state[row + stride].xyz);
     let angles = shaped(shape, u, limit);
     return vec4f(
         angles.x,
@@ -59,7 +60,7 @@ fn join(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) sprea
             poses[first + 2u * i] = joint;
             poses[first + 2u * i + 1u] = multiply(q_parent, from_rotation_vector(turn));
             let active_link = listeners[after.probes.z + i].x;
-            if active_link != NONE { state[column_of(after, motion.at.y) + active_link * LANES] = joint; }
+            if active_link != NONE { state[column_of(after, motion.at.y) + active_link * stride_of(after)] = joint; }
         }
     }
 }

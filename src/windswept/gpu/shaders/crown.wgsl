@@ -21,7 +21,8 @@ fn crown_speed(
         if other != NONE && other > block.x { continue; }
         var sum = 0.0;
         for (var probe = 0u; probe < rung.probes.y; probe++) {
-            sum += length(wind[rung.room.z + (2u * (block.y * rung.probes.y + probe) + 1u) * LANES + lane].xyz);
+            let row = 2u * (block.y * rung.probes.y + probe) + 1u;
+            sum += length(wind[rung.room.z + row * stride_of(rung) + lane].xyz);
         }
         speeds[placement] = sum / f32(rung.probes.y);
     }

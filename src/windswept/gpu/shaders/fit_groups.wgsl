@@ -128,10 +128,10 @@ fn fit_groups(
         let first = 2u * (kind.joints.z + (joins[k] - kind.ladder.z) * kind.joints.y);
         let carrier = listeners[rung.probes.z + row.rows.y].z;
         let pressure = fitted(lane, row, carrier, kind, first);
-        let place = column_of(rung, motion.at.y) + (rung.links.y + 2u * group.y) * LANES;
+        let place = column_of(rung, motion.at.y) + (rung.links.y + 2u * group.y) * stride_of(rung);
         if lane == 0u {
             state[place] = rung.air.w * vec4f(pressure[0], 0.0);
-            state[place + LANES] = rung.air.w * vec4f(pressure[1], 0.0);
+            state[place + stride_of(rung)] = rung.air.w * vec4f(pressure[1], 0.0);
         }
     }
 }

@@ -1,7 +1,7 @@
 // What turns a joint of the plant, whatever the level: its own oscillator, or its shape under its group's pressure.
 // motion/shapes.py is the same on the CPU.
 
-// First row of the state of a slot.
+// First row of the state of a slot; a narrow block is the only one of its rung.
 fn column_of(rung: Rung, slot: u32) -> u32 {
     return rung.room.x + slot / LANES * (rung.links.y + 2u * rung.groups.y) * LANES + slot % LANES;
 }

@@ -101,6 +101,11 @@ struct Shift {
     placement: u32,
 }
 
+// Rows from one number of a placement to the next: a kind of few placements has narrow blocks.
+fn stride_of(rung: Rung) -> u32 {
+    return min(rung.room.w, LANES);
+}
+
 const LANES = 64u;
 const NONE = 0xffffffffu;
 const MAX_ANGLE = 1.5;   // no joint is pulled further, rad

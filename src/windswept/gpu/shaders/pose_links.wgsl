@@ -20,13 +20,14 @@ fn rotation_of(first: u32, link: u32) -> vec4f {
 
 // Angles of a joint now: rates go on since the last step.
 fn angles_at(rung: Rung, column: u32, kind: Kind, link: u32, first: u32, q_parent: vec4f) -> vec2f {
+    let stride = stride_of(rung);
     let listener = listeners[rung.probes.z + link];
     if listener.x != NONE {
-        let joint = state[column + listener.x * LANES];
+        let joint = state[column + listener.x * stride];
         return joint.xz + moment.time.y * joint.yw;
     }
-    let row = column + (rung.links.y + 2u * listener.y) * LANES;
-    let u = state[row].xyz + moment.time.y * state[row + LANES].xyz;
+    let row = column + (rung.links.y + 2u * listener.y) * stride;
+    let u = state[row].xyz + moment.time.y * state[row + stride].xyz;
     return shaped(shapes[kind.joints.w + link], felt(q_parent, rotation_of(first, listener.z), u), kind.size.y);
 }
 

@@ -17,7 +17,7 @@
 const REST_THRESHOLD = 1e-9;
 const GROUP_REST_THRESHOLD = 1e-7;
 const TINY = 1e-30;
-const RECORD = 5u * LANES;
+const RECORD = 5u;   // rows of a link in the stack
 
 struct Body {
     rotation: vec4f,
@@ -28,28 +28,29 @@ struct Body {
     torque: vec3f,     // the same about the origin, N m
 }
 
-// Where a lane's numbers lie.
+// Where a lane's numbers lie, and how far apart.
 struct Column {
     state: u32,
     groups: u32,
     wind: u32,
     stack: u32,
+    stride: u32,
 }
 
-fn lay_down(row: u32, body: Body) {
+fn lay_down(row: u32, stride: u32, body: Body) {
     stack[row] = body.rotation;
-    stack[row + LANES] = vec4f(body.place, body.spin.x);
-    stack[row + 2u * LANES] = vec4f(body.velocity, body.spin.y);
-    stack[row + 3u * LANES] = vec4f(body.force, body.spin.z);
-    stack[row + 4u * LANES] = vec4f(body.torque, 0.0);
+    stack[row + stride] = vec4f(body.place, body.spin.x);
+    stack[row + 2u * stride] = vec4f(body.velocity, body.spin.y);
+    stack[row + 3u * stride] = vec4f(body.force, body.spin.z);
+    stack[row + 4u * stride] = vec4f(body.torque, 0.0);
 }
 
-fn take_up(row: u32) -> Body {
-    let place = stack[row + LANES];
-    let velocity = stack[row + 2u * LANES];
-    let force = stack[row + 3u * LANES];
+fn take_up(row: u32, stride: u32) -> Body {
+    let place = stack[row + stride];
+    let velocity = stack[row + 2u * stride];
+    let force = stack[row + 3u * stride];
     let spin = vec3f(place.w, velocity.w, force.w);
-    return Body(stack[row], place.xyz, spin, velocity.xyz, force.xyz, stack[row + 4u * LANES].xyz);
+    return Body(stack[row], place.xyz, spin, velocity.xyz, force.xyz, stack[row + 4u * stride].xyz);
 }
 
 fn tensor_times(diagonal: vec3f, aside: vec3f, v: vec3f) -> vec3f {
@@ -65,8 +66,8 @@ fn settled(value: vec3f, threshold: f32) -> vec3f {
 }
 
 fn air_at(column: Column, probe: u32, late: f32) -> vec4f {
-    let row = column.wind + 2u * probe * LANES;
-    return mix(wind[row], wind[row + LANES], late);
+    let row = column.wind + 2u * probe * column.stride;
+    return mix(wind[row], wind[row + column.stride], late);
 }
 
 fn drag_force(link: Link, air: vec4f, velocity: vec3f, vector: vec3f) -> vec3f {
@@ -78,9 +79,9 @@ fn drag_force(link: Link, air: vec4f, velocity: vec3f, vector: vec3f) -> vec3f {
 }
 
 // Steps a group and adds its force and torque to the link that carries it.
-fn swing_group(group: Group, row: u32, air: vec4f, carrier: Body) -> Body {
+fn swing_group(group: Group, row: u32, stride: u32, air: vec4f, carrier: Body) -> Body {
     let u = state[row].xyz;
-    let rate = state[row + LANES].xyz;
+    let rate = state[row + stride].xyz;
     let arm = rotate(carrier.rotation, group.centre.xyz);
     let swayed = vec3f(dot(group.sway_x.xyz, rate), dot(group.sway_y.xyz, rate), dot(group.sway_z.xyz, rate));
     let velocity = carrier.velocity + cross(carrier.spin, arm) + rotate(carrier.rotation, swayed);
@@ -92,7 +93,7 @@ fn swing_group(group: Group, row: u32, air: vec4f, carrier: Body) -> Body {
     let y = u - goal;
     let swung = settled(goal + group.swing.x * y + group.swing.y * rate, GROUP_REST_THRESHOLD);
     state[row] = vec4f(swung, 0.0);
-    state[row + LANES] = vec4f(settled(group.swing.z * y + group.swing.w * rate, GROUP_REST_THRESHOLD), 0.0);
+    state[row + stride] = vec4f(settled(group.swing.z * y + group.swing.w * rate, GROUP_REST_THRESHOLD), 0.0);
     let force = leaf * tensor_times(group.leaf_1.xyz, group.leaf_2.xyz, relative)
         + speed * tensor_times(group.wood_1.xyz, group.wood_2.xyz, relative);
     let couple = vec3f(
@@ -142,29 +143,30 @@ fn swing_joint(link: Link, row: u32, body: Body, parent: Body) {
 
 // One inner step of one placement: the walk over its links.
 fn walk(rung: Rung, column: Column, late: f32) {
+    let stride = column.stride;
     var body: Body;
     body.rotation = vec4f(0.0, 0.0, 0.0, 1.0);
     var group = 0u;
     for (; group < rung.groups.z; group++) {
         let row = groups[rung.groups.x + group];
-        body = swing_group(row, column.groups + 2u * group * LANES, air_at(column, row.rows.x, late), body);
+        body = swing_group(row, column.groups + 2u * group * stride, stride, air_at(column, row.rows.x, late), body);
     }
     var top = column.stack;
     for (var i = 0u; i < rung.links.y; i++) {
         let link = links[rung.links.x + i];
-        lay_down(top, body);
-        top += RECORD;
-        body = pose_and_drag(link, state[column.state + i * LANES], body, air_at(column, link.rows.y, late));
+        lay_down(top, stride, body);
+        top += RECORD * stride;
+        body = pose_and_drag(link, state[column.state + i * stride], body, air_at(column, link.rows.y, late));
         for (; group < link.rows.z; group++) {
             let row = groups[rung.groups.x + group];
-            body = swing_group(row, column.groups + 2u * group * LANES, air_at(column, row.rows.x, late), body);
+            body = swing_group(row, column.groups + 2u * group * stride, stride, air_at(column, row.rows.x, late), body);
         }
         var done = i;
         for (var k = 0u; k < link.rows.w; k++) {
             let ended = links[rung.links.x + done];
-            top -= RECORD;
-            var parent = take_up(top);
-            swing_joint(ended, column.state + done * LANES, body, parent);
+            top -= RECORD * stride;
+            var parent = take_up(top, stride);
+            swing_joint(ended, column.state + done * stride, body, parent);
             parent.force += ended.more.x * body.force;
             parent.torque += ended.more.x * body.torque;
             body = parent;
@@ -181,12 +183,14 @@ fn step_block(
         let block = blocks[1u + b];
         if lane >= block.z { continue; }
         let rung = rungs[block.x];
-        let joints = rung.room.x + block.y * (rung.links.y + 2u * rung.groups.y) * LANES + lane;
+        let stride = stride_of(rung);
+        let joints = rung.room.x + block.y * (rung.links.y + 2u * rung.groups.y) * stride + lane;
         let column = Column(
             joints,
-            joints + rung.links.y * LANES,
-            rung.room.z + block.y * 2u * rung.probes.y * LANES + lane,
-            rung.room.y + block.y * (rung.links.z + 1u) * RECORD + lane,
+            joints + rung.links.y * stride,
+            rung.room.z + block.y * 2u * rung.probes.y * stride + lane,
+            rung.room.y + block.y * (rung.links.z + 1u) * RECORD * stride + lane,
+            stride,
         );
         for (var s = moment.steps.y; s < moment.steps.z; s++) {
             walk(rung, column, f32(s + 1u) / f32(moment.steps.w));

@@ -59,7 +59,7 @@ fn sample(
         let point = here.position.xyz + vec3f(turned(probe.xy, yaw.x, yaw.y), probe.z);
         let air = velocity(ends[group.z], point);
         let ratio = length(air) / rung.air.x;
-        let row = rung.room.z + ((2u * block.y * rung.probes.y) + 2u * group.y + group.z) * LANES + lane;
-        wind[row] = vec4f(turned(air, yaw.x, -yaw.y), 0.0, pow(1.0 + ratio * ratio, rung.air.y));
+        let row = 2u * (block.y * rung.probes.y + group.y) + group.z;
+        wind[rung.room.z + row * stride_of(rung) + lane] = vec4f(turned(air, yaw.x, -yaw.y), 0.0, pow(1.0 + ratio * ratio, rung.air.y));
     }
 }

@@ -50,7 +50,7 @@ class CardState:
             "members": filled(device, seats.members),
             "populations": filled(device, seats.populations),
             "wishes": room(device, layouts.WORD, rungs),
-            "blocks": room(device, layouts.ROW, 1 + arrays.member_rows // layouts.LANES),
+            "blocks": room(device, layouts.ROW, 1 + rungs + arrays.member_rows // layouts.LANES),
             "shifts": room(device, layouts.SHIFT, 2 * placements),
             "joins": room(device, layouts.WORD, placements),
             "tally": room(device, layouts.WORD, 4, STORAGE | UNIFORM),

@@ -13,7 +13,9 @@ from windswept.motion import Level
 
 Counts = NDArray[np.int64]
 RECORD = 5
-"""Rows of a link in the stack: RECORD of ``springs.wgsl`` over LANES."""
+"""Rows of a link in the stack: RECORD of ``springs.wgsl``."""
+NARROWEST = 8
+"""Blocks of few placements are as wide as these, rounded up to so many: whole lines of a card's cache."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +46,7 @@ def block_size(levels: list[Level]) -> BlockSize:
 
 
 def room_for(size: BlockSize, placements: Counts, coarsest: NDArray[np.bool_], limit: int) -> Counts:
-    """(R,) room of every rung, in whole blocks.
+    """(R,) room of every rung, in whole blocks; a kind of fewer placements than LANES has one narrow block a rung.
 
     Where all fit everywhere, every rung has room for all placements of its kind. Where they do not, the rungs that take
     most get less, all of them the same number of bytes; placements that find no room stay at the level they are at.
@@ -58,8 +60,9 @@ def room_for(size: BlockSize, placements: Counts, coarsest: NDArray[np.bool_], l
     Raises:
         GraphicsError: not even the coarsest levels fit.
     """
-    everyone = -(-placements // layouts.LANES)
-    row_bytes = layouts.LANES * layouts.ROW.itemsize * size.columns
+    width = np.minimum(-(-np.maximum(placements, 1) // NARROWEST) * NARROWEST, layouts.LANES)
+    everyone = -(-np.maximum(placements, 1) // width)
+    row_bytes = layouts.ROW.itemsize * width[:, None] * size.columns
 
     def blocks(share: float) -> Counts:
         """Blocks of every rung if each buffer of it may have so many bytes."""
@@ -77,8 +80,8 @@ def room_for(size: BlockSize, placements: Counts, coarsest: NDArray[np.bool_], l
             "place fewer plants, or simulate on the CPU"
         )
     if fits(high):
-        return blocks(high) * layouts.LANES
+        return blocks(high) * width
     for _ in range(60):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if fits(middle) else (low, middle)
-    return blocks(low) * layouts.LANES
+    return blocks(low) * width

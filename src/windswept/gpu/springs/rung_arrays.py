@@ -67,7 +67,7 @@ def rung_arrays(kinds: list[GrownKind], limit: int) -> RungArrays:
     owner = np.repeat(np.arange(len(kinds)), [len(kind.levels) for kind in kinds])
     rungs = _rung_rows(kinds, levels, owner, limit)
     size = block_size(levels)
-    blocks = rungs["room"][:, 3].astype(np.int64) // layouts.LANES
+    room = rungs["room"][:, 3].astype(np.int64)
     return RungArrays(
         kinds=_kind_rows(kinds, rungs),
         rungs=rungs,
@@ -78,10 +78,10 @@ def rung_arrays(kinds: list[GrownKind], limit: int) -> RungArrays:
         shapes=np.concatenate([shape_rows(kind.levels[-1], kind.model) for kind in kinds]),
         rooted=_rooted_rows(kinds),
         levels=tuple(levels),
-        state_rows=int((blocks * size.state).sum()) * layouts.LANES,
-        stack_rows=int((blocks * size.stack).sum()) * layouts.LANES,
-        wind_rows=int((blocks * size.wind).sum()) * layouts.LANES,
-        member_rows=int(blocks.sum()) * layouts.LANES,
+        state_rows=int((room * size.state).sum()),
+        stack_rows=int((room * size.stack).sum()),
+        wind_rows=int((room * size.wind).sum()),
+        member_rows=int(room.sum()),
         pose_rows=sum(kind.placements.count * kind.model.link_count for kind in kinds),
     )
 
