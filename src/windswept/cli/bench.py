@@ -8,7 +8,19 @@ import math
 
 import click
 
-NAMES = ("springs", "multibody", "levels", "forest", "bend", "blades", "field", "growth", "spread", "draw")
+NAMES = (
+    "springs",
+    "multibody",
+    "levels",
+    "forest",
+    "bend",
+    "blades",
+    "field",
+    "growth",
+    "spread",
+    "draw",
+    "gpu_springs",
+)
 
 
 @click.command("bench")
@@ -17,7 +29,7 @@ NAMES = ("springs", "multibody", "levels", "forest", "bend", "blades", "field", 
 def command(names: tuple[str, ...], as_json: bool) -> None:
     """Measure speed on this machine, of some parts or of all.
 
-    Parts: springs, multibody, levels, forest, bend, blades, field, growth, spread and draw.
+    Parts: springs, multibody, levels, forest, bend, blades, field, growth, spread, draw and gpu_springs.
 
     Example: windswept bench springs --json
     """
