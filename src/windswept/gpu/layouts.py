@@ -116,7 +116,9 @@ SHAPE = np.dtype(
 )
 ROOTED = np.dtype([("position", *REALS), ("heading", *REALS), ("rows", *COUNTS)])
 MOTION = np.dtype([("at", *COUNTS), ("origin", *COUNTS), ("wish", *COUNTS)])
-MOMENT = np.dtype([("eye", *REALS), ("time", *REALS), ("steps", *COUNTS), ("counts", *COUNTS)])
+MOMENT = np.dtype(
+    [("eye", *REALS), ("view", *REALS), ("time", *REALS), ("steps", *COUNTS), ("counts", *COUNTS)]
+)
 AIR = np.dtype([("profile", *REALS), ("mean", *REALS), ("ground", *REALS), ("sources", *COUNTS)])
 WAVE = np.dtype([("phase", *REALS), ("push", *REALS)])
 GUST = np.dtype([("place", *REALS), ("shape", *REALS), ("fade", *REALS)])

@@ -7,6 +7,13 @@ from stands import SOFT
 from windswept.levels import Ladder, build_ladder, simplify
 from windswept.motion import build_model
 from windswept.plants.plant import Plant
+from windswept.scene import moving_kind
+
+
+@pytest.fixture(autouse=True)
+def no_cut_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Levels cut for a single near plant are the CPU's alone."""
+    monkeypatch.setattr(moving_kind, "NEAR", 0.0)
 
 
 @pytest.fixture(scope="session")

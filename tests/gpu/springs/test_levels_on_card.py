@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,7 +12,7 @@ from windswept.errors import GraphicsError
 from windswept.gpu import layouts
 from windswept.gpu.springs.kinds import kinds_of
 from windswept.gpu.springs.simulation import GpuSimulation
-from windswept.levels import Eye
+from windswept.levels import Eye, outside_view
 from windswept.scene import moving_kind
 
 
@@ -18,10 +20,16 @@ def eye_at(y: float) -> Eye:
     return Eye(np.array([0.0, y, 2.0], np.float32), float(np.radians(60.0)), 1080)
 
 
+def looking(y: float, way: float) -> Eye:
+    """An eye that spares what it does not see."""
+    ahead = np.array([np.sin(way), np.cos(way), 0.0], np.float32)
+    return replace(eye_at(y), forward=ahead, measures=(outside_view,))
+
+
 def fly(simulation, card, ways, seconds: float = 1.0 / 30.0):
     """Moves both eyes along y and lets time pass; yields at every place."""
-    for y in ways:
-        simulation.eye = card.eye = eye_at(y)
+    for where in ways:
+        simulation.eye = card.eye = where if isinstance(where, Eye) else eye_at(where)
         simulation.advance(seconds)
         card.advance(seconds)
         yield
@@ -66,6 +74,18 @@ def test_levels_and_blends_are_those_of_the_cpu(soft_trees, soft_ladders, monkey
     assert np.quantile(worst, 0.5) < 1e-3
 
 
+def test_who_is_out_of_sight_is_spared_as_on_the_cpu(soft_trees, soft_ladders, monkeypatch):
+    monkeypatch.setattr(moving_kind, "BLEND_TIME", moving_kind.BLEND_TIME - 1e-9)
+    simulation, card = both(stand_of(soft_trees, [30, 21]), soft_ladders, soft_trees)
+    around = [looking(15.0, 0.7 * turn) for turn in range(9)]
+    seen = set()
+    for _ in fly(simulation, card, around, seconds=0.6):
+        for kind, levels in zip(simulation.kinds, card.levels_now, strict=True):
+            assert np.array_equal(kind.at, levels)
+        seen.add(card.stepped_count)
+    assert len(seen) > 2
+
+
 def test_an_eye_that_jumps_leaves_no_seat_open(soft_trees, soft_ladders):
     scene = stand_of(soft_trees, [90, 40], depth=300.0)
     simulation, card = both(scene, soft_ladders, soft_trees)
@@ -92,10 +112,11 @@ def test_a_blend_neither_jumps_nor_stops(soft_trees, soft_ladders):
 
 def test_who_finds_no_room_stays_and_is_counted(soft_trees, soft_ladders):
     simulation, full = both(stand_of(soft_trees, [200, 40]), soft_ladders, soft_trees)
-    room = 500_000
+    # Less than all would need at the finest level alone.
+    room = 160 * 16 * soft_trees[0].link_count
     card = GpuSimulation(simulation.scene, full.kinds, picture_height=1080, room=room)
     rooms = card._arrays.rungs["room"][:, 3]
-    assert rooms[0] < 200 <= rooms[7]
+    assert rooms[0] < 200 <= rooms[len(soft_ladders[0].levels) - 1]
     card.eye = eye_at(20.0)
     for _ in range(8):
         card.advance(0.2)
@@ -108,4 +129,4 @@ def test_who_finds_no_room_stays_and_is_counted(soft_trees, soft_ladders):
 def test_too_little_room_is_said_at_once(soft_trees, soft_ladders):
     simulation, _ = both(stand_of(soft_trees, [3, 2]), soft_ladders, soft_trees)
     with pytest.raises(GraphicsError, match=r"needs .* MB .* on the CPU"):
-        GpuSimulation(simulation.scene, kinds_of(simulation), room=2_000)
+        GpuSimulation(simulation.scene, kinds_of(simulation), room=1_000)

@@ -10,6 +10,20 @@ override REGISTER: u32 = 8u;   // placements that the CPU steps at once: idle la
 @group(0) @binding(4) var<storage, read_write> wishes: array<u32>;   // placements of each rung's wish
 @group(0) @binding(5) var<uniform> moment: Moment;
 
+const NEAREST = 0.1;       // no part of a plant is seen from nearer than this, m
+const OUT_OF_VIEW = 4.0;   // who is wholly outside the picture counts as this many times farther away
+
+// Distance from which a plant is seen: levels/choose.py.
+fn seen_distance(position: vec3f, radius: f32) -> f32 {
+    let towards = position - moment.eye.xyz;
+    let away = length(towards);
+    let near = max(away - radius, NEAREST);
+    let far = max(away, NEAREST);
+    let off = acos(clamp(dot(towards, moment.view.xyz) / far, -1.0, 1.0)) - asin(min(radius / far, 1.0));
+    let outside = moment.view.w > 0.0 && off > moment.view.w && far > radius;
+    return select(near, OUT_OF_VIEW * near, outside);
+}
+
 // Coarsest place on the ladder whose error is not seen.
 fn coarsest(kind: Kind, metres: f32) -> u32 {
     var place = 0u;
@@ -24,7 +38,7 @@ fn wish(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= moment.counts.z { return; }
     let here = rooted[id.x];
     let kind = kinds[here.rows.x];
-    let away = max(distance(here.position.xyz, moment.eye.xyz) - kind.size.x, 0.1);
+    let away = seen_distance(here.position.xyz, kind.size.x);
     let allowed = coarsest(kind, moment.eye.w * away);
     let kept = coarsest(kind, moment.eye.w * away * moment.time.x);
     let current = motions[id.x].wish.x;

@@ -70,6 +70,7 @@ struct Motion {
 
 struct Moment {
     eye: vec4f,         // position, m; error that may be seen per distance
+    view: vec4f,        // unit direction it looks in; angle to the corner of the picture, or 0 where it looks all round
     time: vec4f,        // 1 + dead band; seconds since the last inner step; inner step, s; 0
     steps: vec4u,       // steps taken since rest; first and end of those to take now; steps of the wind's interval
     counts: vec4u,      // rungs; kinds; placements; steps of a blend

@@ -67,7 +67,7 @@ def room_for(size: BlockSize, placements: Counts, coarsest: NDArray[np.bool_], l
     def blocks(share: float) -> Counts:
         """Blocks of every rung if each buffer of it may have so many bytes."""
         most = np.floor(share / row_bytes.max(axis=1)).astype(np.int64)
-        return np.where(coarsest, everyone, np.minimum(everyone, np.maximum(most, 1)))
+        return np.where(coarsest, everyone, np.minimum(everyone, most))
 
     def fits(share: float) -> bool:
         return bool(((blocks(share)[:, None] * row_bytes).sum(axis=0) <= limit).all())

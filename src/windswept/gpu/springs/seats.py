@@ -12,7 +12,7 @@ from windswept.gpu import layouts
 from windswept.gpu.springs.kinds import GrownKind
 from windswept.gpu.springs.rows import Rows
 from windswept.gpu.springs.rung_arrays import RungArrays
-from windswept.levels import Eye, choose, fill_registers
+from windswept.levels import Eye, choose, fill_registers, seen_distance
 from windswept.plants.plant import Ints
 
 
@@ -66,8 +66,7 @@ def _wanted(kind: GrownKind, eye: Eye) -> Ints:
     start = np.zeros(kind.placements.count, np.int32)
     if kind.ladder is None:
         return start
-    away = np.linalg.norm(kind.placements.position - eye.position, axis=1) - kind.radius
-    return choose(kind.ladder, eye, np.maximum(away, 0.1), start)
+    return choose(kind.ladder, eye, seen_distance(eye, kind.placements.position, kind.radius), start)
 
 
 def _with_room(given: Ints, room: NDArray[np.int64]) -> Ints:

@@ -19,7 +19,7 @@ from windswept.gpu.springs.kinds import GrownKind
 from windswept.gpu.springs.rung_arrays import rung_arrays
 from windswept.gpu.springs.seats import first_seats
 from windswept.gpu.springs.walk import Walk
-from windswept.levels import Eye
+from windswept.levels import Eye, outside_view
 from windswept.motion import TIME_STEP
 from windswept.plants.plant import Floats, Ints
 from windswept.plants.pose import Pose
@@ -58,7 +58,7 @@ class GpuSimulation:
         self.wind = scene.wind
         """May be replaced while the simulation runs."""
         self.eye: Eye | None = None
-        """Who looks; None for the scene's own camera."""
+        """Who looks; None for the scene's own camera. Of its measures, the card knows ``outside_view``."""
         self.time = 0.0
         """Seconds since rest."""
         self.step_count = 0
@@ -175,13 +175,24 @@ class GpuSimulation:
         if self.eye is not None:
             return self.eye
         view = view_at(self.scene.camera, self.step_count * TIME_STEP)
-        return Eye(view.eye, view.fov_y, self._picture_height, self._pixels)
+        forward = (view.target - view.eye) / np.linalg.norm(view.target - view.eye)
+        return Eye(
+            view.eye,
+            view.fov_y,
+            self._picture_height,
+            self._pixels,
+            forward=forward,
+            measures=(outside_view,),
+        )
 
     def _moment(self, first: int, end: int) -> NDArray[np.void]:
         """``MOMENT``, with the inner steps of the interval that are to be taken."""
         eye = self._eye_now()
         row = np.zeros(1, layouts.MOMENT)
         row["eye"] = *eye.position, float(eye.metres(np.ones(1))[0])
+        if eye.forward is not None and outside_view in eye.measures:
+            corner = math.atan(math.tan(0.5 * eye.fov_y) * math.hypot(1.0, eye.aspect))
+            row["view"] = *eye.forward, corner
         row["time"] = 1.0 + eye.dead_band, self.time - self.step_count * TIME_STEP, TIME_STEP, 0.0
         row["steps"] = self.step_count, first, end, WIND_INTERVAL
         blend = round(BLEND_TIME / TIME_STEP)
