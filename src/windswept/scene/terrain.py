@@ -16,8 +16,10 @@ OCTAVES = 4
 OCTAVE_GAIN = 0.4
 FINEST_STEP, MOST_CELLS = 1.0, 1024
 """Edge of a cell, m, unless the ground is so large that it would have more cells a side than this."""
-STEP_BLURS = (16.0, 8.0, 4.0, 2.0, 1.0)
-"""Widths of the blurs that take the steps out of a height image, from terraces to single pixels, pixels."""
+STEP_BLURS = (1.0, 2.0, 4.0, 8.0, 16.0)
+"""Widths of the blurs that take the steps out of a height image, from single pixels to terraces, pixels."""
+FAR_SHARE = 0.125
+"""A blur is not used where this part of the pixels around would leave their grey level."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,16 +139,22 @@ def image_terrain(size: float, grey: Reals, step: float, low: float, high: float
 
 
 def without_steps(grey: Reals, step: float) -> Reals:
-    """The smoothest ground that the grey levels could have been rounded from: blurs held to half a step.
+    """Smooth ground that the grey levels could have been rounded from.
+
+    Every pixel takes the widest blur that stays within half a step of its level all around, so that a terrace
+    becomes a ramp and a steep or bent slope keeps its shape.
 
     Args:
         grey: (R, C) any range.
-        step: difference of neighbouring levels.
+        step: difference of neighbouring levels; 0 leaves the ground as it is.
     """
     smooth = grey
     for width in STEP_BLURS if step > 0.0 else ():
-        smooth = np.clip(gaussian_filter(smooth, width, mode="nearest"), grey - 0.5 * step, grey + 0.5 * step)
-    return np.asarray(smooth)
+        blurred = gaussian_filter(grey, width, mode="nearest")
+        far = gaussian_filter((np.abs(blurred - grey) > 0.5 * step).astype(np.float64), width, mode="nearest")
+        share = np.clip(1.0 - far / FAR_SHARE, 0.0, 1.0)
+        smooth = share * blurred + (1.0 - share) * smooth
+    return smooth
 
 
 def spline_noise(points: int, waves: float, rng: np.random.Generator) -> Reals:

@@ -117,14 +117,14 @@ def draw_meadow(meadow: Meadow, path: Path) -> None:
 def _crowded_corner(meadow: Meadow) -> Reals:
     """South-western corner of the piece of ground on which the most species meet evenly."""
     half = 0.5 * meadow.terrain.size
-    edges = np.arange(-half + CLOSE_UP, half - CLOSE_UP, 0.5 * CLOSE_UP)
+    edges = np.arange(-half, half + 1e-6, CLOSE_UP)
     counts = np.array(
         [np.histogram2d(stems[:, 0], stems[:, 1], bins=[edges, edges])[0] for stems in meadow.stems.values()]
     )
     share = counts / np.maximum(counts.sum(axis=0), 1.0)
     variety = -np.sum(share * np.log(np.maximum(share, 1e-12)), axis=0)
     column, row = np.unravel_index(np.argmax(variety), variety.shape)
-    return np.array([edges[column], edges[row]]) - 0.25 * CLOSE_UP
+    return np.array([edges[column], edges[row]])
 
 
 def _plan(

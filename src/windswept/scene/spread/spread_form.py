@@ -40,7 +40,7 @@ class NeedForm(Form):
     nutrient: Name
     """Name of a `[[nutrient]]`."""
     amount: Annotated[float, Field(gt=0, le=1000)]
-    """From every square metre that its roots reach."""
+    """From every square metre that its roots reach; where the ground has too little left, it does not live."""
 
 
 class SpreadSpeciesForm(Form):
@@ -59,7 +59,7 @@ class SpreadSpeciesForm(Form):
     spacing_m: Annotated[float, Field(ge=0.02, le=100)] | None = None
     """Least distance between two of this species; left out: twice `radius_m`."""
     reach_m: Radius | None = None
-    """Radius of its crown and of its roots; left out: twice `radius_m`."""
+    """Radius of its crown and roots, twice `radius_m` if left out; roots share cells of 0.4 m, larger beyond 160 m."""
     height_m: Annotated[float, Field(gt=0, le=150)]
     """When grown: it shades what is lower."""
     size_v: Annotated[float, Field(ge=0, le=0.9)] = 0.2
