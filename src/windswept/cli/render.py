@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from windswept.cli.numbers import SEED, FiniteRange
 from windswept.cli.progress import progress_bar, status_line
-from windswept.errors import InputError
+from windswept.errors import GraphicsError, InputError
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Scene
 from windswept.scene.simulation import Simulation
+
+if TYPE_CHECKING:
+    from windswept.gpu.springs.simulation import GpuSimulation
 
 LARGEST_SIDE = 8192
 """Pixels: what every graphics adapter can draw."""
@@ -46,6 +50,9 @@ def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, in
 @click.option(
     "--level-colours", is_flag=True, help="Colour plants by simulation level: red every link, violet one."
 )
+@click.option(
+    "--gpu", is_flag=True, help="Simulate on the graphics card; on the CPU where it has too little memory."
+)
 @click.option("--json", "as_json", is_flag=True, help="Report as one JSON object.")
 def command(
     source: str,
@@ -56,6 +63,7 @@ def command(
     seed: int | None,
     levels: bool,
     level_colours: bool,
+    gpu: bool,
     as_json: bool,
 ) -> None:
     """Draw SCENE (a scene file, or a SOURCE: a lone plant) to a picture or a video, without a screen.
@@ -68,9 +76,27 @@ def command(
     scene = load_scene(source, seed)
     if duration is not None:
         scene = replace(scene, duration=duration)
-    figures = render_scene(scene, output, size, at, levels, level_colours)
+    figures = render_scene(scene, output, size, at, levels, level_colours, gpu=gpu)
     if as_json:
         click.echo(json.dumps(figures))
+
+
+def start(
+    scene: Scene, levels: bool, picture_height: int, gpu: bool, say: Callable[[str], None]
+) -> Simulation | GpuSimulation:
+    """The scene in motion on the CPU, or on the card if that is asked for and it has the memory."""
+    if not gpu:
+        return Simulation(scene, levels=levels, picture_height=picture_height, say=say)
+    from windswept.gpu.springs.kinds import grown_kinds
+    from windswept.gpu.springs.simulation import GpuSimulation
+
+    kinds = grown_kinds(scene, levels, say)
+    try:
+        return GpuSimulation(scene, kinds, picture_height=picture_height)
+    except GraphicsError as error:
+        click.echo(f"windswept: {error}; simulating on the CPU", err=True)
+        plants = [kind.plant for kind in kinds]
+        return Simulation(scene, plants, levels=levels, picture_height=picture_height)
 
 
 def render_scene(
@@ -81,13 +107,14 @@ def render_scene(
     levels: bool = True,
     level_colours: bool = False,
     still: tuple[Path, float] | None = None,
+    gpu: bool = False,
 ) -> dict[str, Any]:
     """Simulates and draws a scene with progress on stderr, and says what it took."""
     from windswept.render.film import PICTURE_ENDINGS, Shot, film_picture, film_video
 
     started = time.perf_counter()
     with status_line("growing plants") as say:
-        simulation = Simulation(scene, levels=levels, picture_height=size[1], say=say)
+        simulation = start(scene, levels, size[1], gpu, say)
     ready = time.perf_counter()
     with progress_bar(f"drawing {output.name}") as progress:
         shot = Shot(size, level_colours, progress)
@@ -95,6 +122,11 @@ def render_scene(
             simulating = film_picture(simulation, output, 0.5 * scene.duration if at is None else at, shot)
         else:
             simulating = film_video(simulation, output, shot, still)
+    if isinstance(simulation, Simulation):
+        speed: dict[str, Any] = {"steps_per_second": round(simulation.step_count / max(simulating, 1e-9), 1)}
+    else:
+        # The card works on while the CPU goes ahead: only its own clock knows.
+        speed = {"stage_ms": {name: round(ms, 3) for name, ms in simulation.stage_milliseconds.items()}}
     return {
         "output": str(output),
         "plants": scene.placement_count,
@@ -103,7 +135,7 @@ def render_scene(
         "stepped": simulation.stepped_count,
         "placements_by_level": simulation.placements_by_level,
         "simulated_s": round(simulation.time, 3),
-        "steps_per_second": round(simulation.step_count / max(simulating, 1e-9), 1),
+        **speed,
         "grow_seconds": round(ready - started, 2),
         "draw_seconds": round(time.perf_counter() - ready, 2),
     }

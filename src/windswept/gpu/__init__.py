@@ -8,6 +8,9 @@ What stays is uploaded once, what moves is uploaded every frame, and one draw li
           --PlantDrawing--> shadow map, then picture       (plant_drawing.py, shaders/bark.wgsl, leaves.wgsl)
           --Backdrop--> grass, ground, sky                 (backdrop.py, shaders/grass.wgsl, ground.wgsl, sky.wgsl)
 
+Where the simulation runs on the card too (springs/), a frame is wind, steps, pose, curves, picture without read-back:
+``Frame.motion`` names the buffer that holds the poses, and nothing of a placement's motion is uploaded.
+
 `Renderer` in renderer.py walks down these steps; frame.py holds the nouns it is given. Bind group 0 is the frame's
 uniforms, 1 belongs to whoever draws, 2 is light (lighting.py, shaders/light.wgsl). All kinds of plants lie in the
 same buffers, so a frame is some ten draws however many kinds and placements it has.

@@ -10,12 +10,17 @@ from pathlib import Path
 from windswept.forms.files import check_place
 from windswept.geometry.detail import DetailRules
 from windswept.gpu.frame import Frame
+from windswept.gpu.renderer import Renderer
+from windswept.gpu.springs.simulation import GpuSimulation
+from windswept.render.card_staging import frame_on_card, stage_on_card
 from windswept.render.offscreen import render_picture
 from windswept.render.staging import frame_now, stage
 from windswept.render.video import VIDEO_ENDINGS, render_video
 from windswept.scene.simulation import Simulation
 
 PICTURE_ENDINGS = (".png",)
+Running = Simulation | GpuSimulation
+"""A scene in motion, on the CPU or on the card."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +44,7 @@ def check_film(path: Path) -> None:
     check_place(path, PICTURE_ENDINGS + VIDEO_ENDINGS)
 
 
-def film_picture(simulation: Simulation, path: Path, at: float, shot: Shot) -> float:
+def film_picture(simulation: Running, path: Path, at: float, shot: Shot) -> float:
     """Runs a simulation to a moment and draws it in full detail.
 
     Args:
@@ -56,18 +61,16 @@ def film_picture(simulation: Simulation, path: Path, at: float, shot: Shot) -> f
         GraphicsError: there is no graphics adapter.
     """
     check_film(path)
-    renderer = stage(simulation, shot.size, DetailRules())
+    renderer = _stage(simulation, shot.size, DetailRules())
     started = time.perf_counter()
     simulation.advance(at)
     seconds = time.perf_counter() - started
-    render_picture(renderer, frame_now(simulation, level_colours=shot.level_colours), path)
+    render_picture(renderer, _frame_of(simulation, shot), path)
     shot.progress(1, 1)
     return seconds
 
 
-def film_video(
-    simulation: Simulation, path: Path, shot: Shot, still: tuple[Path, float] | None = None
-) -> float:
+def film_video(simulation: Running, path: Path, shot: Shot, still: tuple[Path, float] | None = None) -> float:
     """Runs a simulation through its scene and draws all frames.
 
     Args:
@@ -90,7 +93,7 @@ def film_video(
     total = scene.frame_count
     frames = _frames(simulation, total, shot, clock, still)
     render_video(
-        stage(simulation, shot.size),
+        _stage(simulation, shot.size),
         frames,
         path,
         scene.frames_per_second,
@@ -106,7 +109,7 @@ class _Clock:
 
 
 def _frames(
-    simulation: Simulation, count: int, shot: Shot, clock: _Clock, still: tuple[Path, float] | None
+    simulation: Running, count: int, shot: Shot, clock: _Clock, still: tuple[Path, float] | None
 ) -> Iterator[Frame]:
     step = 1.0 / simulation.scene.frames_per_second
     for index in range(count):
@@ -114,7 +117,21 @@ def _frames(
             started = time.perf_counter()
             simulation.advance(step)
             clock.seconds += time.perf_counter() - started
-        frame = frame_now(simulation, level_colours=shot.level_colours)
+        frame = _frame_of(simulation, shot)
         if still and abs(index * step - still[1]) <= 0.5 * step:
-            render_picture(stage(simulation, shot.size, DetailRules()), frame, still[0])
+            render_picture(_stage(simulation, shot.size, DetailRules()), frame, still[0])
         yield frame
+
+
+def _stage(simulation: Running, size: tuple[int, int], rules: DetailRules | None = None) -> Renderer:
+    """A renderer for a simulation, wherever it runs."""
+    if isinstance(simulation, GpuSimulation):
+        return stage_on_card(simulation, size, rules)
+    return stage(simulation, size, rules)
+
+
+def _frame_of(simulation: Running, shot: Shot) -> Frame:
+    """What is to be seen at this moment."""
+    if isinstance(simulation, GpuSimulation):
+        return frame_on_card(simulation, level_colours=shot.level_colours)
+    return frame_now(simulation, level_colours=shot.level_colours)

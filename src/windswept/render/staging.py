@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from windswept.geometry.curves import build_geometry
 from windswept.geometry.detail import DetailRules
 from windswept.gpu.frame import FLUTTER_SPEED, LARGEST_FLUTTER, Camera, Frame, Ground, PosedPlants
 from windswept.gpu.renderer import Renderer
+from windswept.motion import Level
 from windswept.plants.plant import Floats, Ints, Look
 from windswept.scene.camera import View, view_at
-from windswept.scene.moving_kind import MovingKind
 from windswept.scene.simulation import Simulation
 from windswept.scene.terrain import Terrain
 
@@ -67,7 +69,7 @@ def frame_now(simulation: Simulation, view: View | None = None, level_colours: b
             kind.placements.position,
             kind.placements.yaw,
             flutter(speeds),
-            level_colour(kind) if level_colours else None,
+            level_colour([s.level for s in kind.sets], kind.at) if level_colours else None,
         )
         for kind, pose, speeds in zip(simulation.kinds, simulation.pose, simulation.wind_speeds, strict=True)
     )
@@ -81,11 +83,17 @@ def frame_now(simulation: Simulation, view: View | None = None, level_colours: b
     )
 
 
-def level_colour(kind: MovingKind) -> Ints:
-    """(P,) index into LEVEL_COLOURS: the logarithm of links over oscillators, from none merged to all merged."""
-    stepped = np.array([s.level.link_count + s.level.group_count for s in kind.sets], np.float64)
-    merged = np.log(kind.model.link_count / stepped) / np.log(max(kind.model.link_count, 2))
-    return np.rint(merged[kind.at] * (len(LEVEL_COLOURS) - 1)).astype(np.int32)
+def level_colour(levels: Sequence[Level], at: Ints) -> Ints:
+    """(P,) index into LEVEL_COLOURS: the logarithm of links over oscillators, from none merged to all merged.
+
+    Args:
+        levels: of one plant, the finest first.
+        at: (P,) which of them each placement is at.
+    """
+    links = levels[0].link_count
+    stepped = np.array([level.link_count + level.group_count for level in levels], np.float64)
+    merged = np.log(links / stepped) / np.log(max(links, 2))
+    return np.rint(merged[at] * (len(LEVEL_COLOURS) - 1)).astype(np.int32)
 
 
 def camera_of(view: View) -> Camera:

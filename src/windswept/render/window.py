@@ -23,6 +23,8 @@ LONGEST_STEP = 0.1
 """Most time that one frame advances, s: after a stall the scene goes on where it was."""
 STRONGEST_WIND = 25.0
 """End of the wind slider, m/s."""
+STAGES_EVERY = 30
+"""Frames between two looks at the card's clock, which wait for it."""
 
 
 @dataclass(slots=True)
@@ -115,6 +117,8 @@ class _LiveView:
         self._frame_time = 0.0
         self._pointer: tuple[float, float] | None = None
         self._drawn: DrawList | None = None
+        self._frames = 0
+        self._stages = ""
 
     def draw(self, texture: Any) -> None:
         """Advance the scene and draw it into the window's texture."""
@@ -126,6 +130,10 @@ class _LiveView:
         step = 0.0 if self._controls.paused else min(passed, LONGEST_STEP)
         frame = self._advance(step, self._controls, self._orbit.camera())
         self._drawn = self._renderer.draw_into(texture.create_view(), frame)
+        self._frames += 1
+        if self._frames % STAGES_EVERY == 0:
+            times = self._renderer.stage_milliseconds
+            self._stages = ", ".join(f"{stage} {ms:.1f} ms" for stage, ms in times.items())
 
     def handle(self, event: dict[str, Any]) -> None:
         """Orbit on drag, zoom on scroll."""
@@ -152,6 +160,8 @@ class _LiveView:
         _, controls.wind_heading = imgui.slider_angle("towards", controls.wind_heading, -180.0, 180.0)
         _, controls.paused = imgui.checkbox("pause", controls.paused)
         imgui.text(self._counter_line())
+        if self._stages:
+            imgui.text(self._stages)
         if controls.counters:
             imgui.text(controls.counters)
         imgui.end()

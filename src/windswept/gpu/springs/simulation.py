@@ -131,6 +131,11 @@ class GpuSimulation:
         return np.split(place, self._arrays.kinds["ladder"][1:, 2])
 
     @property
+    def placements_by_level(self) -> list[int]:
+        """How many placements are at each level, over all kinds, read back."""
+        return np.bincount(np.concatenate(self.levels_now)).tolist()
+
+    @property
     def stepped_count(self) -> int:
         """Links and groups that are stepped, over all placements, read back."""
         rungs = self._arrays.rungs
