@@ -48,9 +48,9 @@ class SpreadSpeciesForm(Form):
 
     source: Source
     """Name or path of a plant, as in `[[plant]]`, or of underbrush."""
-    points: Annotated[list[Point], Field(max_length=10_000)] = Field(default=[])
+    points: Annotated[list[Point], Field(max_length=1000)] = Field(default=[])
     """Propagation points, x and y in m: where its seed comes from in every round."""
-    random_points: Annotated[int, Field(ge=0, le=10_000)] = 0
+    random_points: Annotated[int, Field(ge=0, le=1000)] = 0
     """So many more propagation points, anywhere on the spread's ground."""
     need: Annotated[list[NeedForm], Field(max_length=64)] = Field(default=[])
     """`[[spread.species.need]]`, any number."""
@@ -76,7 +76,7 @@ class SpreadSpeciesForm(Form):
     """How well it does where it lacks nothing: a strong grass 1, a plant that bears poor ground less."""
     turnover: Share = 0.3
     """Chance that a plant dies in a round where the ground does not suit it at all; trees live longer."""
-    offspring: Annotated[int, Field(ge=1, le=64)] = 4
+    offspring: Annotated[int, Field(ge=1, le=16)] = 4
     """Seeds that a plant sheds in a round; a propagation point sheds 16 times as many."""
     distance_m: Annotated[float, Field(ge=0.05, le=1000)] = 1.5
     """Half of its seeds fall within this distance."""
