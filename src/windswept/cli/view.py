@@ -4,20 +4,28 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from itertools import count
+from typing import TYPE_CHECKING
 
 import click
 import numpy as np
 
 from windswept.cli.numbers import SEED
 from windswept.cli.progress import status_line
+from windswept.cli.render import start
 from windswept.levels import Eye
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Scene
 from windswept.scene.simulation import Simulation
 from windswept.wind.blown import blown
 
+if TYPE_CHECKING:
+    from windswept.gpu.springs.simulation import GpuSimulation
+
 PICTURE_HEIGHT = 720
 """Pixels that the window opens with; simulation levels are chosen for it."""
+COUNT_EVERY = 15
+"""Frames between two counts, for which the card has to be waited for."""
 
 
 @click.command("view")
@@ -26,39 +34,50 @@ PICTURE_HEIGHT = 720
 @click.option(
     "--level-colours", is_flag=True, help="Colour plants by simulation level: red every link, violet one."
 )
-def command(source: str, seed: int | None, level_colours: bool) -> None:
+@click.option(
+    "--gpu", is_flag=True, help="Simulate on the graphics card; on the CPU where it has too little memory."
+)
+def command(source: str, seed: int | None, level_colours: bool, gpu: bool) -> None:
     """Open a live window on SCENE: drag to orbit, scroll to zoom, sliders for the wind, pause.
 
     Example: windswept view weeping_willow
     """
-    view_scene(load_scene(source, seed), level_colours)
+    view_scene(load_scene(source, seed), level_colours, gpu)
 
 
-def view_scene(scene: Scene, level_colours: bool = False) -> None:
+def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False) -> None:
     """Opens the window and runs until it is closed.
+
+    Args:
+        scene: to show.
+        level_colours: colour plants by their simulation level.
+        gpu: simulate on the card.
 
     Raises:
         GraphicsError: no display, no adapter, or the window libraries are not installed.
     """
     from windswept.geometry.curves import build_geometry
     from windswept.gpu.frame import Camera, Frame
-    from windswept.render.staging import LEVEL_LOOKS, camera_of, frame_now, ground_grid
+    from windswept.render.film import Shot, frame_of
+    from windswept.render.staging import LEVEL_LOOKS, camera_of, ground_grid
     from windswept.render.window import Controls, require_display, show_window
     from windswept.scene.camera import view_at
 
     require_display()
     with status_line("growing plants") as say:
-        simulation = Simulation(scene, levels=True, say=say)
+        simulation = start(scene, True, PICTURE_HEIGHT, gpu, say)
         plants = [kind.plant for kind in simulation.kinds]
         geometries = [build_geometry(plant) for plant in plants]
+
+    shot, frames = Shot(level_colours=level_colours), count()
 
     def advance(seconds: float, controls: Controls, camera: Camera) -> Frame:
         simulation.wind = blown(scene.wind, controls.wind_speed, controls.wind_heading)
         simulation.eye = Eye(np.array(camera.eye, np.float32), camera.fov_y, PICTURE_HEIGHT)
         simulation.advance(seconds)
-        links = f"{simulation.stepped_count:,} of {simulation.link_count:,} links stepped"
-        controls.counters = f"{links}, {simulation.time:.1f} s"
-        return replace(frame_now(simulation, level_colours=level_colours), camera=camera)
+        if next(frames) % COUNT_EVERY == 0:
+            controls.counters = _counters(simulation)
+        return replace(frame_of(simulation, shot), camera=camera)
 
     mean = scene.wind.mean
     show_window(
@@ -71,3 +90,14 @@ def view_scene(scene: Scene, level_colours: bool = False) -> None:
         "windswept",
         LEVEL_LOOKS,
     )
+
+
+def _counters(simulation: Simulation | GpuSimulation) -> str:
+    """Lines of text below the sliders: what is stepped, and how long the card takes for it."""
+    links = (
+        f"{simulation.stepped_count:,} of {simulation.link_count:,} links stepped, {simulation.time:.0f} s"
+    )
+    if isinstance(simulation, Simulation):
+        return links
+    stages = ", ".join(f"{stage} {ms:.1f} ms" for stage, ms in simulation.stage_milliseconds.items())
+    return f"{links}\n{stages}"

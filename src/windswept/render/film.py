@@ -65,7 +65,7 @@ def film_picture(simulation: Running, path: Path, at: float, shot: Shot) -> floa
     started = time.perf_counter()
     simulation.advance(at)
     seconds = time.perf_counter() - started
-    render_picture(renderer, _frame_of(simulation, shot), path)
+    render_picture(renderer, frame_of(simulation, shot), path)
     shot.progress(1, 1)
     return seconds
 
@@ -117,7 +117,7 @@ def _frames(
             started = time.perf_counter()
             simulation.advance(step)
             clock.seconds += time.perf_counter() - started
-        frame = _frame_of(simulation, shot)
+        frame = frame_of(simulation, shot)
         if still and abs(index * step - still[1]) <= 0.5 * step:
             render_picture(_stage(simulation, shot.size, DetailRules()), frame, still[0])
         yield frame
@@ -130,7 +130,7 @@ def _stage(simulation: Running, size: tuple[int, int], rules: DetailRules | None
     return stage(simulation, size, rules)
 
 
-def _frame_of(simulation: Running, shot: Shot) -> Frame:
+def frame_of(simulation: Running, shot: Shot) -> Frame:
     """What is to be seen at this moment."""
     if isinstance(simulation, GpuSimulation):
         return frame_on_card(simulation, level_colours=shot.level_colours)
