@@ -2,25 +2,25 @@
 // and the same motion gives the same lists on every card.
 
 const CREW = 256u;
-var<workgroup> partial: array<u32, 256>;
+var<workgroup> sums: array<u32, 256>;
 
 // Sum of `value` over the invocations before this one; `crew_total` is then the sum over all.
 fn sum_before(lane: u32, value: u32) -> u32 {
     workgroupBarrier();
-    partial[lane] = value;
+    sums[lane] = value;
     workgroupBarrier();
     for (var reach = 1u; reach < CREW; reach *= 2u) {
         var left = 0u;
-        if lane >= reach { left = partial[lane - reach]; }
+        if lane >= reach { left = sums[lane - reach]; }
         workgroupBarrier();
-        partial[lane] += left;
+        sums[lane] += left;
         workgroupBarrier();
     }
-    return partial[lane] - value;
+    return sums[lane] - value;
 }
 
 fn crew_total() -> u32 {
-    return partial[CREW - 1u];
+    return sums[CREW - 1u];
 }
 
 // First and end of the run of an invocation among `count` items.
