@@ -103,7 +103,6 @@ GROUP = np.dtype(
         ("rows", *COUNTS),
     ]
 )
-LISTENER = np.dtype(COUNTS)
 SHAPE = np.dtype(
     [
         ("linear_1", *REALS),
