@@ -46,7 +46,7 @@ BAD = {
     "no count": ({"stand": [STAND | {"count": 0}]}, "stand[0].count = 0: expected a whole number from 1"),
     "unknown species": (
         {"plant": [PLANT | {"source": "hazle"}]},
-        "plant[0].source = 'hazle': expected a built-in species: did you mean hazel?",
+        "plant[0].source = 'hazle': expected built-in underbrush or a built-in species: did you mean hazel?",
     ),
     "missing plant source": (
         {"stand": [STAND | {"source": [{"source": "no/such.npz"}]}]},

@@ -41,6 +41,10 @@ class Sorts:
     """As `grow_source` or the library of underbrush takes them."""
     is_tree: list[bool]
 
+    def number_of(self, source: str) -> int:
+        """Which species a source is; one past the last for a source that does not spread."""
+        return self.sources.index(source) if source in self.sources else len(self.sources)
+
 
 def build_spread(source: str, form: SceneForm, terrain: Terrain, nursery: Nursery) -> tuple[Colony, ...]:
     """Let a scene's plants spread around those that stand already.
@@ -170,9 +174,11 @@ def _placed_plants(sorts: Sorts, nursery: Nursery) -> Population:
     """Plants that a person placed: of a species that spreads, or of the last one, which does not."""
     species, places = [], []
     for kind, stands in nursery.places.items():
-        number = sorts.sources.index(kind.source) if kind.source in sorts.sources else len(sorts.sources)
-        species += [number] * len(stands)
+        species += [sorts.number_of(kind.source)] * len(stands)
         places += stands
+    for source, tufts in nursery.tufts.items():
+        species += [sorts.number_of(source)] * len(tufts)
+        places += [(x, y) for x, y, _ in tufts]
     return _grown(np.array(species, np.int32), np.reshape(places, (-1, 2)), placed=True)
 
 

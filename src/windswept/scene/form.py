@@ -10,6 +10,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from windswept.forms.form import Form
+from windswept.scene.field_form import FieldForm
 from windswept.scene.planting_form import PlantForm, StandForm
 from windswept.scene.spread.spread_form import NutrientForm, SpreadForm
 from windswept.scene.values import Angle, Length, Level, Place, Point, Seed, Source, Speed, Time
@@ -162,6 +163,8 @@ class SceneForm(Form):
     """`[[nutrient]]`, any number."""
     spread: SpreadForm | None = None
     """`[spread]`"""
+    field: FieldForm | None = None
+    """`[field]`"""
     camera: CameraForm
     """`[camera]`"""
     sun: SunForm = SunForm()

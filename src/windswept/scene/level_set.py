@@ -7,9 +7,10 @@ import numpy as np
 from windswept.motion import Level, Stepper, rest_state
 from windswept.motion.lanes import WIDTH
 from windswept.plants.plant import Floats, Ints
-from windswept.scene.probes import Probes, place_probes, wind_at_probes
+from windswept.scene.probes import Probes, field_at_probes, place_probes, wind_at_probes
 from windswept.scene.scene import Placements
 from windswept.scene.terrain import Terrain
+from windswept.wind.field import Field
 from windswept.wind.wind import Wind
 
 
@@ -83,6 +84,11 @@ class LevelSet:
             chosen = Placements(self._placements.position[self.members], self._placements.yaw[self.members])
             self._probes = place_probes(self.level, chosen, self._terrain)
         self.winds = wind_at_probes(wind, self._probes, start), wind_at_probes(wind, self._probes, stop)
+
+    def add_field(self, field: Field, end: int) -> None:
+        """Adds a force field as it is at the beginning (0) or end (1) of the interval to the winds just sampled."""
+        if self.winds is not None and self._probes is not None:
+            self.winds[end][...] += field_at_probes(field, self._probes)
 
     def step(self, count: int, taken: int, interval: int) -> None:
         """Takes ``count`` inner steps of the interval, of which ``taken`` were taken before."""

@@ -12,6 +12,7 @@ from windswept.forms.read_toml import read_toml
 from windswept.forms.words import nearest
 from windswept.plants.sources import ENDINGS, SPECIES_ENDING, is_path, source_names
 from windswept.scene.build_camera import build_camera
+from windswept.scene.build_field import build_field
 from windswept.scene.build_ground import build_terrain
 from windswept.scene.build_spread import build_spread
 from windswept.scene.build_wind import build_wind
@@ -75,5 +76,6 @@ def build_scene(source: str, data: dict[str, Any], seed: int | None = None) -> S
         ),
         duration=form.time.duration_s,
         frames_per_second=form.time.fps,
-        colonies=colonies,
+        colonies=nursery.colonies(terrain) + colonies,
+        field=None if form.field is None else build_field(source, form.field, terrain.size, form.seed),
     )

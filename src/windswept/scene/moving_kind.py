@@ -29,6 +29,7 @@ from windswept.scene.level_set import LevelSet
 from windswept.scene.probes import turn_about_z
 from windswept.scene.scene import Placements
 from windswept.scene.terrain import Terrain
+from windswept.wind.field import Field
 from windswept.wind.wind import Wind
 
 BLEND_TIME = 0.5
@@ -194,6 +195,11 @@ class MovingKind:
         """Samples the wind at both ends of an interval, s."""
         for level_set in self.live_sets:
             level_set.sample_winds(wind, start, stop)
+
+    def add_field(self, field: Field, end: int) -> None:
+        """Adds a force field as it is at the beginning (0) or end (1) of the interval to the winds just sampled."""
+        for level_set in self.live_sets:
+            level_set.add_field(field, end)
 
     def step(self, count: int, taken: int, interval: int) -> None:
         """Takes ``count`` inner steps of the interval, of which ``taken`` were taken before."""

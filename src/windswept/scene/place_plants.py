@@ -9,7 +9,7 @@ import numpy as np
 from windswept.errors import BudgetError, InputError
 from windswept.scene.area import Area, ellipse, rectangle
 from windswept.scene.form import SceneForm
-from windswept.scene.plant_sources import Nursery, find_source
+from windswept.scene.plant_sources import Nursery, find_source_or_underbrush
 from windswept.scene.planting_form import AreaForm, PlantForm, StandForm
 from windswept.scene.scatter import Ground, Sort, scatter, share_out
 from windswept.scene.scene import Placements, PlantKind
@@ -60,9 +60,13 @@ def _place_one(
     """One [[plant]]."""
     x, y = form.position
     check_on_ground(source, f"{place}.position", list(form.position), terrain)
-    kind = PlantKind(find_source(source, f"{place}.source", form.source), form.seed)
+    name, is_tree = find_source_or_underbrush(source, f"{place}.source", form.source)
+    yaw = math.radians(form.yaw_degrees)
     ground.take(x, y, 0.0)
-    nursery.add(kind, x, y, math.radians(form.yaw_degrees))
+    if is_tree:
+        nursery.add(PlantKind(name, form.seed), x, y, yaw)
+    else:
+        nursery.add_tufts(name, np.array([[x, y]]), np.array([yaw]))
 
 
 def _place_stand(
@@ -76,7 +80,10 @@ def _place_stand(
     rng: np.random.Generator,
 ) -> None:
     """One [[stand]]: its plants shared out by weight, scattered, and given to a few individuals."""
-    names = [find_source(source, f"{place}.source[{i}].source", s.source) for i, s in enumerate(form.source)]
+    sources = [
+        find_source_or_underbrush(source, f"{place}.source[{i}].source", s.source)
+        for i, s in enumerate(form.source)
+    ]
     area = build_area(source, f"{place}.area", form.area, terrain)
     counts = share_out(form.count, [sort.weight for sort in form.source])
     sorts = [Sort(n, s.spacing_m, s.depth_bias) for n, s in zip(counts, form.source, strict=True)]
@@ -86,8 +93,11 @@ def _place_stand(
         most = _most_that_fit(form, [len(places) for places in found])
         expected = f"at most {most}, as no more fit: lower it or spacing_m, or enlarge the area"
         raise InputError(source, f"{place}.count", form.count, expected)
-    for name, places in zip(names, found, strict=True):
-        nursery.add_shared([PlantKind(name, seed + i) for i in range(form.individuals)], places, rng)
+    for (name, is_tree), places in zip(sources, found, strict=True):
+        if is_tree:
+            nursery.add_shared([PlantKind(name, seed + i) for i in range(form.individuals)], places, rng)
+        elif len(places):
+            nursery.add_tufts(name, places, rng.uniform(0.0, 2.0 * math.pi, len(places)))
 
 
 def _most_that_fit(form: StandForm, fitted: list[int]) -> int:

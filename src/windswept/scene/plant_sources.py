@@ -15,6 +15,8 @@ from windswept.plants.sources import SPECIES_ENDING, check_source, is_path, sour
 from windswept.plants.species import LARGEST_FILE, load_species
 from windswept.plants.underbrush.library import load_underbrush, underbrush_names
 from windswept.scene.scene import PlantKind
+from windswept.scene.spread.colony import Colony
+from windswept.scene.terrain import Terrain
 
 Reals = NDArray[np.float64]
 
@@ -81,6 +83,8 @@ class Nursery:
     """Radians."""
     places: dict[PlantKind, list[tuple[float, float]]] = field(default_factory=dict)
     """x and y, m."""
+    tufts: dict[str, list[tuple[float, float, float]]] = field(default_factory=dict)
+    """x and y, m, and yaw, radians, of the underbrush of every source."""
 
     def add(self, kind: PlantKind, x: float, y: float, yaw: float) -> None:
         """Put one plant in its place."""
@@ -93,3 +97,19 @@ class Nursery:
         yaws = rng.uniform(0.0, 2.0 * np.pi, len(places))
         for (x, y), individual, yaw in zip(places.tolist(), which, yaws.tolist(), strict=True):
             self.add(kinds[individual], x, y, yaw)
+
+    def add_tufts(self, source: str, places: Reals, yaws: Reals) -> None:
+        """Put tufts of a species of underbrush on (n, 2) places, turned by (n,) radians."""
+        rows = np.column_stack([places, yaws]).tolist()
+        self.tufts.setdefault(source, []).extend((x, y, yaw) for x, y, yaw in rows)
+
+    def colonies(self, terrain: Terrain) -> tuple[Colony, ...]:
+        """The underbrush that a person placed, a colony for each source, all of size 1."""
+        return tuple(_colony(source, np.array(rows), terrain) for source, rows in self.tufts.items())
+
+
+def _colony(source: str, rows: Reals, terrain: Terrain) -> Colony:
+    """Tufts on the ground at (n, 3) rows of x, y and yaw."""
+    x, y, yaw = rows.T
+    position = np.stack([x, y, terrain.height(x, y)], axis=1).astype(np.float32)
+    return Colony(source, position, yaw.astype(np.float32), np.ones(len(rows), np.float32))

@@ -14,11 +14,11 @@ class PlantForm(Form):
     """One plant in its own place."""
 
     source: Source
-    """Name of a built-in species or grammar, or path of a plant file (see plants.md) relative to the scene file."""
+    """Name of a built-in species, underbrush or grammar, or path of its file (see plants.md) from the scene file on."""
     position: Point
     """x and y of the root, m."""
     seed: Seed = 0
-    """Seed of growth."""
+    """Seed of growth; tufts of underbrush share those of the scene."""
     yaw_degrees: Angle = 0.0
     """Turn about the vertical, counter-clockwise."""
 
@@ -27,7 +27,7 @@ class StandSourceForm(Form):
     """One species of a stand."""
 
     source: Source
-    """Name of a built-in species or grammar, or path of a plant file (see plants.md) relative to the scene file."""
+    """Name of a built-in species, underbrush or grammar, or path of its file (see plants.md) from the scene file on."""
     weight: Annotated[float, Field(gt=0, le=1e6)] = 1.0
     """Share of the stand's plants, relative to the other sources' weights."""
     spacing_m: Annotated[float, Field(ge=0.05, le=1000)] = 3.0

@@ -10,6 +10,7 @@ from windswept.motion import Level
 from windswept.plants.plant import Floats
 from windswept.scene.scene import Placements
 from windswept.scene.terrain import Terrain
+from windswept.wind.field import Field, sample
 from windswept.wind.velocity import velocity
 from windswept.wind.wind import Wind
 
@@ -40,6 +41,12 @@ def wind_at_probes(wind: Wind, probes: Probes, time: float) -> Floats:
     placements = len(probes.yaw)
     air = velocity(wind, probes.world, probes.height, time)
     return turn_about_z(air.reshape(placements, -1, 3), -probes.yaw)
+
+
+def field_at_probes(field: Field, probes: Probes) -> Floats:
+    """(P, B, 3) what a force field adds to the wind at every placement's probes, in the plant's own frame, m/s."""
+    added = sample(field, probes.world, probes.height)
+    return turn_about_z(added.reshape(len(probes.yaw), -1, 3), -probes.yaw)
 
 
 def turn_about_z(vectors: Floats, angle: Floats) -> Floats:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from windswept.scene.camera import Camera
 from windswept.scene.spread.colony import Colony
 from windswept.scene.terrain import Terrain
+from windswept.wind.field import FieldPlan
 from windswept.wind.wind import Wind
 
 Floats = NDArray[np.float32]
@@ -57,12 +58,19 @@ class Scene:
     """s."""
     frames_per_second: float
     colonies: tuple[Colony, ...] = ()
-    """Underbrush that has spread."""
+    """Underbrush, placed or spread."""
+    field: FieldPlan | None = None
+    """What the wind alone does not say: agents, obstacles and flows."""
 
     @property
     def placement_count(self) -> int:
         """Number of plants that stand in the scene."""
         return sum(placements.count for placements in self.placements)
+
+    @property
+    def tuft_count(self) -> int:
+        """Number of tufts of underbrush that stand in the scene."""
+        return sum(colony.count for colony in self.colonies)
 
     @property
     def frame_count(self) -> int:

@@ -13,8 +13,10 @@ from windswept.plants.plant import Floats, Plant
 from windswept.plants.pose import Pose
 from windswept.scene.camera import view_at
 from windswept.scene.grow_kinds import grow_kinds
+from windswept.scene.meadow import Meadow
 from windswept.scene.moving_kind import MovingKind
 from windswept.scene.scene import Scene
+from windswept.wind.field import Field, start_field, step_field
 
 WIND_INTERVAL = 4
 """Inner steps between two samples of the wind: 30 a second; in between it changes linearly."""
@@ -52,6 +54,10 @@ class Simulation:
             MovingKind(plant, placements, scene.terrain, levels)
             for plant, placements in zip(grown, scene.placements, strict=True)
         ]
+        self.meadow = Meadow(scene, picture_height, say) if scene.colonies else None
+        """The scene's underbrush; None where there is none."""
+        self.field = None if scene.field is None else start_field(scene.field, scene.wind)
+        """The scene's force field; None where there is none."""
         self.time = 0.0
         """Seconds since rest."""
         self.step_count = 0
@@ -72,6 +78,8 @@ class Simulation:
             count = min(due - self.step_count, WIND_INTERVAL - taken)
             for kind in self.kinds:
                 kind.step(count, taken, WIND_INTERVAL)
+            if self.meadow is not None:
+                self.meadow.step(count)
             self.step_count += count
         return self
 
@@ -97,9 +105,16 @@ class Simulation:
         return sum(kind.stepped_count for kind in self.kinds)
 
     @property
+    def clamped_count(self) -> int:
+        """How often a force or speed that was no number, or too large to be meant, had to be held back."""
+        held = 0 if self.field is None else self.field.clamps.total
+        return held + (0 if self.meadow is None else self.meadow.clamped_count)
+
+    @property
     def placements_by_level(self) -> list[int]:
         """How many placements are at each level, over all kinds."""
-        return np.bincount(np.concatenate([kind.at for kind in self.kinds])).tolist()
+        everyone = [kind.at for kind in self.kinds]
+        return np.bincount(np.concatenate([np.zeros(0, np.int32), *everyone])).tolist()
 
     def change_levels(self, at_once: bool = False) -> None:
         """Lets every placement go to the level that the camera asks for."""
@@ -124,3 +139,16 @@ class Simulation:
         start, stop = self.step_count * TIME_STEP, (self.step_count + WIND_INTERVAL) * TIME_STEP
         for kind in self.kinds:
             kind.sample_winds(self.wind, start, stop)
+        if self.field is not None:
+            self._advance_field(self.field, stop)
+        if self.meadow is not None:
+            self.meadow.sample_air(self.wind, self.field, stop)
+
+    def _advance_field(self, field: Field, stop: float) -> None:
+        """Adds what the field makes of the wind at both ends of the interval that ends at ``stop``, s."""
+        for kind in self.kinds:
+            kind.add_field(field, 0)
+        field.wind = self.wind
+        step_field(field, stop - field.time)
+        for kind in self.kinds:
+            kind.add_field(field, 1)
