@@ -103,3 +103,37 @@ def test_a_camera_that_jumps_is_followed(aspens: tuple[Scene, list[Plant]]) -> N
     assert not kind.blends
     assert simulation.stepped_count == near
     assert all(np.isfinite(s.state.joints).all() for s in kind.sets)
+
+
+def lone_oak() -> tuple[Scene, list[Plant]]:
+    """An oak in a turbulent breeze."""
+    scene = load_scene("california_black_oak")
+    return replace(scene, wind=replace(scene.wind, gusts=())), [grow("california_black_oak", 0)]
+
+
+@pytest.mark.slow
+def test_a_lone_plant_near_the_camera_is_cut_branch_by_branch_without_a_jump() -> None:
+    scene, plants = lone_oak()
+    runs = []
+    for levels in (True, False):
+        simulation = Simulation(scene, plants, levels=levels, pixels=2.0)
+        kind = simulation.kinds[0]
+        simulation.advance(1.0)
+        before, track, cuts = None, [], 0
+        for frame in range(120):
+            simulation.eye = Eye(
+                np.array([0.0, -9.0 - 0.05 * frame, 3.0], np.float32), float(FOV), HEIGHT, tolerance=2.0
+            )
+            simulation.advance(1.0 / 60.0)
+            own = kind.near.get(0)
+            cuts += own is not None and own is not before
+            before = own
+            track.append(simulation.pose[0].position[0, ::7].astype(np.float64))
+        runs.append(np.array(track))
+        if levels:
+            assert cuts >= 2
+            assert kind.stepped_count < 2 * kind.model.link_count
+    pixel = Eye(np.zeros(3, np.float32), float(FOV), HEIGHT).metres(np.array([5.0]))[0]
+    jump = np.linalg.norm(np.diff(runs[0] - runs[1], n=2, axis=0), axis=-1) / pixel
+    assert np.percentile(jump, 99) < 0.25
+    assert jump.max() < 1.0

@@ -12,6 +12,7 @@ NAMES = (
     "springs",
     "multibody",
     "levels",
+    "accuracy",
     "forest",
     "bend",
     "blades",
@@ -29,7 +30,7 @@ NAMES = (
 def command(names: tuple[str, ...], as_json: bool) -> None:
     """Measure speed on this machine, of some parts or of all.
 
-    Parts: springs, multibody, levels, forest, bend, blades, field, growth, spread, draw and gpu_springs.
+    Parts: springs, multibody, levels, accuracy, forest, bend, blades, field, growth, spread, draw and gpu_springs.
 
     Example: windswept bench springs --json
     """

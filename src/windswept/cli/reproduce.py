@@ -8,6 +8,8 @@ from typing import Any
 
 import click
 
+from windswept.forms.files import check_place
+
 
 @click.command("reproduce")
 @click.argument("paper", type=click.Choice(["beaudoin", "skjermo"]))
@@ -18,7 +20,7 @@ import click
     show_default=True,
     help="Of Beaudoin's tree.",
 )
-@click.option("-o", "--output", help="Folder for Skjermo's pictures.")
+@click.option("-o", "--output", help="Folder for the pictures.")
 @click.option("--json", "as_json", is_flag=True, help="A JSON list of rows.")
 def command(paper: str, links: int, output: str | None, as_json: bool) -> None:
     """Make a founding paper's table beside ours.
@@ -29,17 +31,16 @@ def command(paper: str, links: int, output: str | None, as_json: bool) -> None:
     def say(line: str) -> None:
         click.echo(line, err=True)
 
+    folder = None if output is None else Path(output)
+    if folder is not None:
+        check_place(folder / f"{paper}.png", (".png",))
     if paper == "beaudoin":
         from windswept.studies.beaudoin import beaudoin
 
-        rows, table = beaudoin(links, say=say), _beaudoin_table
+        rows, table = beaudoin(links, folder=folder, say=say), _beaudoin_table
     else:
-        from windswept.forms.files import check_place
         from windswept.studies.skjermo import skjermo
 
-        folder = None if output is None else Path(output)
-        if folder is not None:
-            check_place(folder / "skjermo_gust.png", (".png",))
         rows, table = skjermo(folder, say=say), _skjermo_table
     if as_json:
         click.echo(json.dumps(rows))
@@ -48,14 +49,16 @@ def command(paper: str, links: int, output: str | None, as_json: bool) -> None:
 
 
 def _beaudoin_table(rows: list[Any]) -> None:
-    click.echo("thesis, figure 6           ours                                    thesis' merges")
-    click.echo("branches   fps  times  |  links   steps/s   times   p95 m   rms  |  p95 m   rms")
+    click.echo("thesis, figure 6           ours                                             thesis' merges")
+    click.echo(
+        "branches   fps  times  |  links   steps/s   times  bound m   p95 m  px   rms  |  p95 m   px   rms"
+    )
     for row in rows:
         click.echo(
             f"{row['paper_branches']:>8} {row['paper_fps']:>5.0f} {row['paper_speedup']:>6.1f}  |"
             f" {row['branches']:>6} {row['steps_per_second']:>9.0f} {row['speedup']:>7.1f}"
-            f" {row['p95_m']:>7.3f} {row['rms_over_motion']:>5.1%}  |"
-            f" {row['printed_p95_m']:>6.3f} {row['printed_rms_over_motion']:>5.1%}"
+            f" {row['bound_m']:>8.3f} {row['p95_m']:>7.3f} {row['p95_pixels']:>4.2f} {row['rms_over_motion']:>5.1%}  |"
+            f" {row['printed_p95_m']:>6.3f} {row['printed_p95_pixels']:>5.2f} {row['printed_rms_over_motion']:>5.1%}"
         )
 
 

@@ -7,13 +7,14 @@ from numba import njit
 
 from windswept.levels.hierarchy import Hierarchy
 from windswept.motion import Level, Model, State
+from windswept.motion.multibody import link_velocities
 from windswept.motion.rods import Doubles
 from windswept.motion.rotation import from_rotation_vector, multiply, rotate, rotate_back
 from windswept.motion.shapes import shaped
 from windswept.plants.plant import Floats
 
-REGULAR = 1e-6
-"""Relative weight that keeps a group's pressure determined where its joints hardly feel one direction."""
+REGULAR = 2e-5
+"""Relative weight that pulls a group's pressure to zero along directions that its joints hardly feel."""
 MOST_ROUNDS = 12
 """Of Gauss and Newton's method for a group's pressure; where shapes are nearly linear, three are enough."""
 MOMENT = 1e-3
@@ -45,10 +46,10 @@ def joint_motion_of(model: Model, level: Level, state: State, placement: int) ->
 
 def carry_over(
     hierarchy: Hierarchy, angles: Floats, velocities: Floats, level: Level
-) -> tuple[Floats, Floats]:
+) -> tuple[Floats, ...]:
     """State at a level that moves the plant as given joint angles and velocities do.
 
-    Links take their own; a group takes the pressure whose static shape is nearest in elastic energy.
+    Links take their own, and carry the velocities that follow where they are coupled; a group takes the pressure whose static shape is nearest in elastic energy.
 
     Args:
         hierarchy: of the plant.
@@ -57,11 +58,14 @@ def carry_over(
         level: to go to.
 
     Returns:
-        (A, 4) joints and (G, 6) groups, in the order of ``State``.
+        The parts of ``State``: (A, 4) joints and (G, 6) groups, and (A, 6) what links carry at a coupled level.
     """
     joints = np.empty((level.link_count, 4), np.float32)
     joints[:, 0::2] = angles[level.link]
     joints[:, 1::2] = velocities[level.link]
+    if level.coupled:
+        carried = link_velocities(hierarchy.model, angles, velocities)[level.link].astype(np.float32)
+        return joints, np.zeros((0, 6), np.float32), carried
     if level.group_count == 0 or not level.group_constants.any():
         return joints, np.zeros((level.group_count, 6), np.float32)
     skeleton = hierarchy.model.skeleton
@@ -77,7 +81,9 @@ def carry_over(
             skeleton.parent, listens, level.group_carrier, level.shapes, level.shape_limit,
             1.0 / hierarchy.model.rods.compliance, rotation, motion, pressure,
         )  # fmt: skip
-        normal += REGULAR * np.trace(normal, axis1=1, axis2=2)[:, None, None] * np.eye(3) + 1e-30 * np.eye(3)
+        pull = REGULAR * np.trace(normal, axis1=1, axis2=2)[:, None]
+        normal += (pull + 1e-30)[..., None] * np.eye(3)
+        right[:, 0] -= pull * pressure[:, :3]
         change = np.linalg.solve(normal, right.transpose(0, 2, 1))
         pressure[:, :3] += change[..., 0]
         pressure[:, 3:] = change[..., 1]

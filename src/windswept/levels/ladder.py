@@ -13,15 +13,21 @@ from windswept.motion import Level, finest_level
 from windswept.motion.level import GROUP_STEP
 from windswept.motion.rods import Doubles
 
-STEP = 0.55
+STEP = 0.4
 """Each level has at most this many times the oscillators of the one before."""
 TYPICAL_TO_95 = 2.0
 """95th percentile over standard deviation of the mismatch."""
+DECOUPLED_SHARE = 0.15
+"""Reckoned error of `springs` against `multibody`, as a share of a swaying plant's whole motion."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ladder:
-    """Levels 0 (all links) to K - 1 (still), each coarser than the one before."""
+    """Levels 0 (all links) to K - 1 (still), each coarser than the one before.
+
+    Errors are against level 0, which is `springs`, or `multibody` where the ladder was built with it; then level 1
+    is `springs` with every link.
+    """
 
     hierarchy: Hierarchy
     levels: tuple[Level, ...]
@@ -29,9 +35,14 @@ class Ladder:
     error: Doubles
     """(K,) 95 % of tips are nearer than this to where level 0 has them, m: estimated, or measured once measured."""
     tolerance: Doubles
-    """(K,) reckoned error of the hierarchy's nodes at which each level is cut; 0 for level 0, as `bend` for still."""
+    """(K,) reckoned error of the hierarchy's nodes at which each level is cut; 0 where every link is stepped, as `bend` for still."""
     bound: Doubles | None = None
     """(K,) no tip is farther than this from where level 0 has it, in wind up to the stated speed, m; or None."""
+
+    @property
+    def first_merged(self) -> int:
+        """First level in which links are merged."""
+        return 2 if self.levels[0].coupled else 1
 
     @property
     def oscillators(self) -> list[int]:
@@ -39,11 +50,12 @@ class Ladder:
         return [level.link_count + level.group_count for level in self.levels]
 
 
-def build_ladder(hierarchy: Hierarchy) -> Ladder:
+def build_ladder(hierarchy: Hierarchy, multibody: bool = False) -> Ladder:
     """Ladder of a plant, its errors estimated from the hierarchy.
 
     Args:
         hierarchy: of the plant.
+        multibody: whether `multibody` is its first rung, that all errors are against.
     """
     levels, cuts = [finest_level(hierarchy.model)], [0.0]
     for tolerance in _tolerances(hierarchy):
@@ -62,12 +74,13 @@ def build_ladder(hierarchy: Hierarchy) -> Ladder:
     sway = np.linalg.norm(hierarchy.influence.tip, ord=2, axis=(1, 2))
     still = TYPICAL_TO_95 * float(np.sqrt(np.mean(sway**2)))
     levels += [_without_inertia(levels[-1]), _still(levels[-1])]
-    return Ladder(
+    ladder = Ladder(
         hierarchy=hierarchy,
         levels=tuple(levels),
         error=hierarchy.pressure * np.array([*errors, still]),
         tolerance=np.array([*cuts, cuts[-1], cuts[-1]]),
     )
+    return _under_multibody(ladder) if multibody else ladder
 
 
 def estimated_error(hierarchy: Hierarchy, level: Level, group_frequency: Doubles) -> float:
@@ -90,6 +103,17 @@ def estimated_error(hierarchy: Hierarchy, level: Level, group_frequency: Doubles
     )
     tips = np.append(skeleton.stem_first_link[1:], model.link_count) - 1
     return TYPICAL_TO_95 * float(np.sqrt(np.mean(way[tips] ** 2)))
+
+
+def _under_multibody(ladder: Ladder) -> Ladder:
+    """The ladder with `multibody` as its first rung; every other level but still adds what `springs` loses."""
+    decoupled = DECOUPLED_SHARE * ladder.error[-1]
+    return replace(
+        ladder,
+        levels=(replace(ladder.levels[0], coupled=True), *ladder.levels),
+        error=np.array([0.0, *(ladder.error[:-1] + decoupled), ladder.error[-1]]),
+        tolerance=np.array([0.0, *ladder.tolerance]),
+    )
 
 
 def _tolerances(hierarchy: Hierarchy) -> Doubles:

@@ -15,6 +15,8 @@ REVERSAL = 1.5
 """Time between two reversals of the wind, s."""
 FRONT_PERIOD = 4.0
 """From one sharp front to the next, s; behind it the wind blows for half that time."""
+FRONT_RISE = 2.0
+"""From calm to full speed in such a front, m: as sharp as the sharpest gust of the training wind."""
 PAUSES = (0.15, 0.3, 0.6, 1.2, 2.4)
 """How long the random wind holds a speed and direction, s."""
 
@@ -61,9 +63,11 @@ def _along(speed: float, azimuth: float) -> Floats:
 def _fronts(probes: Floats, time: float, speed: float, travel: float, azimuth: float) -> Floats:
     """(B, 3) wind behind sharp fronts that travel along an azimuth at a speed of their own."""
     way = probes[:, 0] * np.cos(azimuth) + probes[:, 1] * np.sin(azimuth)
-    since = time - (way - way.min()) / travel
-    on = (since > 0.0) & (since % FRONT_PERIOD < 0.5 * FRONT_PERIOD)
-    return np.where(on[:, None], _along(speed, azimuth), np.float32(0.0))
+    behind = time * travel - (way - way.min())
+    period = FRONT_PERIOD * travel
+    within = np.where(behind > 0.0, behind % period, 0.0)
+    rise = np.clip(np.minimum(within, 0.5 * period - within) / FRONT_RISE, 0.0, 1.0)
+    return rise[:, None] * _along(speed, azimuth)
 
 
 def _random_sequence(speed: float, rng: np.random.Generator) -> tuple[Floats, Floats]:

@@ -11,7 +11,7 @@ from windswept.levels.ladder import Ladder
 from windswept.levels.maximal_wind import TRIAL_SECONDS, maximal_wind
 from windswept.levels.metrics import METRICS
 from windswept.levels.training_wind import PLACEMENTS, Air, training_air
-from windswept.motion import Level, Model, State, Stepper, pose_links, rest_state
+from windswept.motion import Level, Model, State, build_stepper, pose_links, rest_state
 from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats, Ints
 
@@ -64,7 +64,7 @@ def measure(
     rest = tip_positions(model, ladder.levels[0], rest_state(ladder.levels[0], PLACEMENTS), tips)
     errors: list[Floats] = []
     moved = []
-    for now, before, apart in _looks(ladder, seconds, training_air() if air is None else air, tips):
+    for now, before, apart in follow(ladder, seconds, training_air() if air is None else air, tips):
         errors.append(METRICS[metric].between(now, before, apart).reshape(len(now), -1))
         moved.append(np.mean(np.sum((now[0] - rest) ** 2, axis=-1)))
     every = np.concatenate(errors, axis=1)
@@ -88,7 +88,7 @@ def bound_errors(ladder: Ladder, metric: str = "displacement") -> Doubles:
     model = ladder.hierarchy.model
     tips = followed_tips(model, model.link_count)
     largest = np.zeros(len(ladder.levels))
-    for now, before, apart in _looks(ladder, TRIAL_SECONDS, maximal_wind(model), tips):
+    for now, before, apart in follow(ladder, TRIAL_SECONDS, maximal_wind(model), tips):
         error = METRICS[metric].between(now, before, apart)
         largest = np.maximum(largest, error.max(axis=(1, 2)))
     return np.maximum.accumulate(largest)
@@ -111,11 +111,21 @@ def measured_ladder(ladder: Ladder) -> Ladder:
     return with_measured_errors(ladder, measure(ladder, SHORT_SECONDS, most_tips=FEW_TIPS))
 
 
-def _looks(ladder: Ladder, seconds: float, air: Air, tips: Ints) -> Iterator[tuple[Floats, Floats, float]]:
-    """Where tips are at every level, (K, P, n, 3) m, now and at the last look, and the seconds in between."""
+def follow(
+    ladder: Ladder, seconds: float, air: Air, tips: Ints, every: int = FOLLOW_EVERY
+) -> Iterator[tuple[Floats, Floats, float]]:
+    """Where tips are at every level, (K, P, n, 3) m, now and at the last look, and the seconds in between.
+
+    Args:
+        ladder: of one plant, all levels of which start from rest.
+        seconds: length of the run.
+        air: in which.
+        tips: (n,) links whose far ends are looked at.
+        every: samples of the wind, 30 a second, between two looks.
+    """
     model, levels = ladder.hierarchy.model, ladder.levels
     states = [rest_state(level, PLACEMENTS) for level in levels]
-    steppers = [Stepper(level) for level in levels]
+    steppers = [build_stepper(model, level) for level in levels]
     interval = SUBSTEPS * model.time_step
 
     def look() -> Floats:
@@ -126,9 +136,9 @@ def _looks(ladder: Ladder, seconds: float, air: Air, tips: Ints) -> Iterator[tup
         for stepper, state in zip(steppers, states, strict=True):
             start = air(stepper.level, sample * interval)
             stepper.step(state, start, air(stepper.level, (sample + 1) * interval), SUBSTEPS)
-        if sample % FOLLOW_EVERY == FOLLOW_EVERY - 1:
+        if sample % every == every - 1:
             now = look()
-            yield now, before, FOLLOW_EVERY * interval
+            yield now, before, every * interval
             before = now
 
 

@@ -58,7 +58,7 @@ def near_cut(ladder: Ladder, balls: NodeBalls, eye: Eye, position: Floats) -> Le
 
 def node_tolerance(ladder: Ladder, metres: Doubles) -> Doubles:
     """(K,) reckoned error at which a node may be merged so that its error comes out below so many metres."""
-    cuts = slice(1, len(ladder.levels) - 2)
+    cuts = slice(ladder.first_merged, len(ladder.levels) - 2)
     error, tolerance = np.log(ladder.error[cuts] + 1e-30), np.log(ladder.tolerance[cuts] + 1e-30)
     between = np.exp(np.interp(np.log(metres), error, tolerance))
     return np.where(metres < np.exp(error[0]), -1.0, between)

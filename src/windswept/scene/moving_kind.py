@@ -123,7 +123,7 @@ class MovingKind:
         if self.ladder is None:
             return
         for placement, blend in list(self.blends.items()):
-            if time >= blend.start + BLEND_TIME:
+            if time >= blend.start + BLEND_TIME - 1e-9:
                 blend.source.remove(placement)
                 del self.blends[placement]
         away = seen_distance(eye, self.placements.position, self.radius)

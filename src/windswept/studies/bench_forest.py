@@ -1,4 +1,4 @@
-"""A forest with and without simulation levels: links stepped and time per step, seen by a camera in its midst."""
+"""A forest with and without simulation levels: links stepped and time per step, seen by somebody who walks in it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from windswept.plants.weber_penn import grow
-from windswept.scene.camera import standing_camera
+from windswept.scene.camera import Camera
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Placements, PlantKind, Scene
 from windswept.scene.simulation import Simulation
@@ -18,8 +18,10 @@ PLACEMENTS = 1_000
 SPACING = 8.0
 """Mean distance between neighbours, m."""
 KINDS = (("quaking_aspen", 0), ("scots_pine", 0), ("hazel", 0), ("quaking_aspen", 3))
-SECONDS = 0.5
+SECONDS = 2.0
 """Simulated for each timing."""
+WALK = (1.4, 10.0)
+"""Speed of the camera, m/s, and how long it walks, s."""
 
 
 def bench_forest(say: Callable[[str], None] = lambda line: None) -> dict[str, float]:
@@ -44,7 +46,7 @@ def bench_forest(say: Callable[[str], None] = lambda line: None) -> dict[str, fl
 
 
 def forest() -> Scene:
-    """A thousand trees of four kinds round a camera at eye height."""
+    """A thousand trees of four kinds round a camera that walks among them."""
     rng = np.random.default_rng(0)
     side = SPACING * np.sqrt(PLACEMENTS)
     kind = rng.integers(0, len(KINDS), PLACEMENTS)
@@ -55,7 +57,19 @@ def forest() -> Scene:
         load_scene("hazel"),
         kinds=tuple(PlantKind(*one) for one in KINDS),
         placements=tuple(Placements(position[kind == k], yaw[kind == k]) for k in range(len(KINDS))),
-        camera=standing_camera(np.array([0.0, 0.0, 1.7]), np.array([10.0, 0.0, 3.0]), np.radians(60.0)),
+        camera=walking_camera(),
+    )
+
+
+def walking_camera() -> Camera:
+    """At eye height through the middle of the forest, looking ahead."""
+    speed, seconds = WALK
+    eye = np.array([[0.0, 0.0, 1.7], [speed * seconds, 0.0, 1.7]], np.float32)
+    return Camera(
+        time=np.array([0.0, seconds], np.float32),
+        eye=eye,
+        target=eye + np.array([10.0, 0.0, 1.3], np.float32),
+        fov_y=np.full(2, np.radians(60.0), np.float32),
     )
 
 

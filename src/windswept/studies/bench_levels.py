@@ -5,11 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-from windswept.levels import build_ladder, measure, simplify
+from windswept.levels import Ladder, bound_errors, build_ladder, measure, simplify
+from windswept.levels.training_wind import training_air
 from windswept.motion import build_model
 from windswept.plants.weber_penn import grow
 from windswept.studies.bench_plants import plant_with_links
 from windswept.studies.level_costs import levels_bytes, nanoseconds_per_step, plant_bytes
+from windswept.studies.merges import links_needed
 
 SPECIES = ("quaking_aspen", "black_tupelo", "weeping_willow", "california_black_oak")
 LARGE = 77_141
@@ -31,14 +33,28 @@ def bench_levels(say: Callable[[str], None] = lambda line: None) -> dict[str, fl
         name = f"levels.{species}"
         figures[f"{name}.links"] = plant.link_count
         figures[f"{name}.build_seconds"] = time.perf_counter() - started
-        figures[f"{name}.bytes_ratio"] = levels_bytes(ladder) / plant_bytes(plant)
-        measured = None if large else measure(ladder, MEASURE_SECONDS)
+        figures[f"{name}.bytes_ratio"] = levels_bytes(ladder) / plant_bytes(plant, ladder.levels[0])
         full = nanoseconds_per_step(ladder.levels[0])
         for rung, level in enumerate(ladder.levels):
             at = f"{name}.{rung}"
             figures[f"{at}.links"] = level.link_count + level.group_count
             figures[f"{at}.speedup"] = full / nanoseconds_per_step(level)
-            if measured is not None:
-                figures[f"{at}.p95_m"] = float(measured.p95[rung])
-                figures[f"{at}.rms_over_motion"] = float(measured.rms[rung] / measured.motion)
+        if not large:
+            figures |= _accuracy(ladder, name)
     return figures
+
+
+def _accuracy(ladder: Ladder, name: str) -> dict[str, float]:
+    """Errors of every level in a wind other than the one that they are stated from, and links for one pixel."""
+    measured, bound = measure(ladder, MEASURE_SECONDS, training_air(seed=1)), bound_errors(ladder)
+    figures = {}
+    for rung in range(1, len(ladder.levels)):
+        at = f"{name}.{rung}"
+        figures[f"{at}.p95_m"] = float(measured.p95[rung])
+        figures[f"{at}.rms_over_motion"] = float(measured.rms[rung] / measured.motion)
+        figures[f"{at}.bound_over_max"] = float(bound[rung] / measured.largest[rung])
+    needed = links_needed(ladder)
+    return figures | {
+        f"{name}.links_for_a_pixel": needed.ours,
+        f"{name}.links_for_a_pixel_printed": needed.printed,
+    }

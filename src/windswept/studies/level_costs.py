@@ -19,14 +19,22 @@ def nanoseconds_per_step(level: Level, steps: int = 8) -> float:
     return 1e9 * median_seconds(lambda: stepper.step(state, wind, wind, steps), repeats=7) / (steps * WIDTH)
 
 
-def plant_bytes(plant: Plant) -> int:
-    """Memory of a plant's arrays."""
-    arrays = (getattr(plant, name) for name in plant.__dataclass_fields__)
-    return sum(array.nbytes for array in arrays if isinstance(array, np.ndarray))
+def plant_bytes(plant: Plant, finest: Level) -> int:
+    """Memory of a plant's arrays and of its level 0.
+
+    Args:
+        plant: the plant.
+        finest: its level 0.
+    """
+    return _bytes_of(plant) + _bytes_of(finest)
 
 
 def levels_bytes(ladder: Ladder) -> int:
     """Memory that the levels beyond level 0 add: their own arrays and the static shapes that all share."""
-    shared = ladder.hierarchy.shapes
-    arrays = (getattr(level, name) for level in ladder.levels[1:] for name in level.__dataclass_fields__)
-    return shared.nbytes + sum(a.nbytes for a in arrays if isinstance(a, np.ndarray) and a is not shared)
+    return ladder.hierarchy.shapes.nbytes + sum(_bytes_of(level) for level in ladder.levels[1:])
+
+
+def _bytes_of(one: Plant | Level) -> int:
+    """Memory of a dataclass' arrays, but for the static shapes of a level, which are not its own."""
+    arrays = (getattr(one, name) for name in one.__dataclass_fields__ if name != "shapes")
+    return sum(array.nbytes for array in arrays if isinstance(array, np.ndarray))

@@ -55,7 +55,6 @@ def check_seats(card: GpuSimulation) -> None:
 
 def test_levels_and_blends_are_those_of_the_cpu(soft_trees, soft_ladders, monkeypatch):
     # The card counts steps; seconds would be rounded so that some blends end an interval later.
-    monkeypatch.setattr(moving_kind, "BLEND_TIME", moving_kind.BLEND_TIME - 1e-9)
     simulation, card = both(stand_of(soft_trees, [30, 21]), soft_ladders, soft_trees)
     way = -2.0 - 60.0 * (1.0 - np.cos(np.arange(100) / 16.0))
     changes, worst, before = 0, [], simulation.placements_by_level
@@ -75,7 +74,6 @@ def test_levels_and_blends_are_those_of_the_cpu(soft_trees, soft_ladders, monkey
 
 
 def test_who_is_out_of_sight_is_spared_as_on_the_cpu(soft_trees, soft_ladders, monkeypatch):
-    monkeypatch.setattr(moving_kind, "BLEND_TIME", moving_kind.BLEND_TIME - 1e-9)
     simulation, card = both(stand_of(soft_trees, [30, 21]), soft_ladders, soft_trees)
     around = [looking(15.0, 0.7 * turn) for turn in range(9)]
     seen = set()

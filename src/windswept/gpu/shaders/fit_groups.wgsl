@@ -16,7 +16,7 @@
 
 const MOST_ROUNDS = 8u;
 // Pull of the pressure towards none, over that of its joints: directions that they hardly feel must not wander.
-const REGULAR = 1e-3;
+const REGULAR = 2e-5;
 const CLOSE = 1e-4;
 
 // What the joints ask of a change of the pressure: normal matrix, right side of the pressure and of its rate.
