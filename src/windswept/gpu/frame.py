@@ -63,6 +63,16 @@ class CardMotion:
 
 
 @dataclass(frozen=True, slots=True)
+class MeadowMotion:
+    """How the blades of a meadow lean at one moment."""
+
+    lanes: tuple[Floats, ...]
+    """``BladeState.lanes`` of every kind that moves, bed after bed."""
+    ahead: float
+    """Seconds since the last step; leans go on at their rate."""
+
+
+@dataclass(frozen=True, slots=True)
 class Frame:
     """One picture to draw."""
 
@@ -77,6 +87,8 @@ class Frame:
     """Mean horizontal wind, m/s: sways grass and drifts clouds."""
     motion: CardMotion | None = None
     """Poses of all plants on the card; None where each kind's ``link`` is uploaded."""
+    meadow: MeadowMotion | None = None
+    """Of the blades that the renderer holds; None where it holds none."""
 
 
 LARGEST_FLUTTER = 0.6

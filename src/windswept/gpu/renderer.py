@@ -20,6 +20,8 @@ from windswept.gpu.draw_list import DrawList, View, draw_list
 from windswept.gpu.frame import FLAT_GROUND, Frame, Ground
 from windswept.gpu.lighting import SHADOW_TEXELS, Lighting
 from windswept.gpu.matrices import camera_matrix, frustum_planes, shadow_ball, sun_matrix
+from windswept.gpu.meadow import MeadowDrawing
+from windswept.gpu.meadow.blade_list import SOFTWARE_BLADES, BladeRules, Sharpness
 from windswept.gpu.plant_buffers import plant_arrays
 from windswept.gpu.plant_drawing import PlantDrawing
 from windswept.gpu.posing import Posing
@@ -27,6 +29,7 @@ from windswept.gpu.stage_times import StageTimes
 from windswept.gpu.wiring import ALL_STAGES, DEPTH_FORMAT, bind, buffers_layout
 from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
 from windswept.plants.plant import Look, Plant
+from windswept.scene.meadow_bed import Bed
 
 SAMPLES = 4
 """Of a pixel (MSAA)."""
@@ -71,6 +74,8 @@ class Renderer:
         rules: what may be spent; by default what suits the device.
         colour_format: of the views that ``draw_into`` gets.
         extra_looks: that placements may wear instead of their plant's own.
+        beds: blades of underbrush; where there are some, no lawn is made up round the camera.
+        blade_rules: what may be spent on them; by default what suits the device.
 
     Raises:
         GraphicsError: there is no graphics adapter.
@@ -85,6 +90,8 @@ class Renderer:
         rules: DetailRules | None = None,
         colour_format: str = PICTURE_FORMAT,
         extra_looks: tuple[Look, ...] = (),
+        beds: tuple[Bed, ...] = (),
+        blade_rules: BladeRules | None = None,
     ) -> None:
         self._device = shared_device()
         self._rules = rules or (SOFTWARE_RULES if is_software(self._device) else DetailRules())
@@ -103,6 +110,13 @@ class Renderer:
         shared = (self._frame_layout, self._lighting.layout, colour_format, SAMPLES)
         self._plant_drawing = PlantDrawing(self._device, self.posing, *shared)
         self._backdrop = Backdrop(self._device, ground, *shared)
+        self.meadow: MeadowDrawing | None = None
+        if beds:
+            spent = blade_rules or (SOFTWARE_BLADES if is_software(self._device) else BladeRules())
+            picture = colour_format, SAMPLES
+            self.meadow = MeadowDrawing(
+                self._device, beds, ground, spent, self._frame_layout, self._lighting.layout, picture
+            )
         self._colour_format = colour_format
         self._times = StageTimes(self._device, STAGES)
         self.canvas = Canvas(
@@ -154,10 +168,20 @@ class Renderer:
         )
         self.posing.upload(frame.plants, shifts, wanted)
         self._plant_drawing.upload(wanted)
-        self._backdrop.upload(np.asarray(frame.camera.eye, np.float64), scene_view.planes)
+        eye = np.asarray(frame.camera.eye, np.float64)
+        if self.meadow is None:
+            self._backdrop.upload(eye, scene_view.planes)
+        elif frame.meadow is not None:
+            pixels = 0.5 * self.size[1] / np.tan(0.5 * frame.camera.fov_y)
+            self.meadow.upload(frame.meadow, Sharpness(eye, scene_view.planes, float(pixels)))
         encoder = self._device.create_command_encoder()
         around = self._times.around("curves")
         self.posing.encode(encoder, self._frame_group, wanted, frame.motion, around)
+        if self.meadow is not None:
+            blade_pass = encoder.begin_compute_pass()
+            blade_pass.set_bind_group(0, self._frame_group)
+            self.meadow.encode(blade_pass)
+            blade_pass.end()
         self._encode_shadows(encoder, wanted)
         self._encode_picture(encoder, view, wanted)
         self._device.queue.submit([encoder.finish()])
@@ -214,7 +238,10 @@ class Renderer:
         self._plant_drawing.draw(render_pass, wanted)
         for drawing in self.beside:
             drawing.draw(render_pass)
-        self._backdrop.draw_near(render_pass)
+        if self.meadow is None:
+            self._backdrop.draw_near(render_pass)
+        else:
+            self.meadow.draw(render_pass)
         self._backdrop.draw_far(render_pass)
         render_pass.end()
 
@@ -238,6 +265,6 @@ class Renderer:
         rows["sky_light"] = *light.sky, 0.0
         rows["haze"] = *light.haze, EXTINCTION
         rows["wind"] = *frame.wind, frame.wind[0] * frame.time, frame.wind[1] * frame.time
-        rows["terrain"] = *self._ground.origin, self._ground.spacing, 0.0
+        rows["terrain"] = *self._ground.origin, self._ground.spacing, self.meadow is not None
         texel = 2.0 * radius / SHADOW_TEXELS
         return View(frame.camera, height, frustum_planes(camera), sun, centre, radius, texel), rows

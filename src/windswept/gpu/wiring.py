@@ -16,6 +16,8 @@ SHADER_SETS = {
     "leaves": ("types", "light", "leaves"),
     "ground": ("types", "light", "meadow", "ground"),
     "grass": ("types", "light", "meadow", "grass"),
+    "blades_pose": ("types", "rotation", "blades_types", "blades_pose"),
+    "blades": ("types", "light", "meadow", "blades_types", "blades"),
     "sky": ("types", "light", "sky"),
     "wind": ("motion", "air", "wind"),
     "springs": ("motion", "rotation", "springs"),

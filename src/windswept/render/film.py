@@ -10,6 +10,7 @@ from pathlib import Path
 from windswept.forms.files import check_place
 from windswept.geometry.detail import DetailRules
 from windswept.gpu.frame import Frame
+from windswept.gpu.meadow.blade_list import BladeRules
 from windswept.gpu.renderer import Renderer
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.render.card_staging import frame_on_card, stage_on_card
@@ -127,7 +128,7 @@ def _stage(simulation: Running, size: tuple[int, int], rules: DetailRules | None
     """A renderer for a simulation, wherever it runs."""
     if isinstance(simulation, GpuSimulation):
         return stage_on_card(simulation, size, rules)
-    return stage(simulation, size, rules)
+    return stage(simulation, size, rules, None if rules is None else BladeRules())
 
 
 def frame_of(simulation: Running, shot: Shot) -> Frame:

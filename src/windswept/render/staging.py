@@ -8,9 +8,18 @@ import numpy as np
 
 from windswept.geometry.curves import build_geometry
 from windswept.geometry.detail import DetailRules
-from windswept.gpu.frame import FLUTTER_SPEED, LARGEST_FLUTTER, Camera, Frame, Ground, PosedPlants
+from windswept.gpu.frame import (
+    FLUTTER_SPEED,
+    LARGEST_FLUTTER,
+    Camera,
+    Frame,
+    Ground,
+    MeadowMotion,
+    PosedPlants,
+)
+from windswept.gpu.meadow.blade_list import BladeRules
 from windswept.gpu.renderer import Renderer
-from windswept.motion import Level
+from windswept.motion import TIME_STEP, Level
 from windswept.plants.plant import Floats, Ints, Look
 from windswept.scene.camera import View, view_at
 from windswept.scene.simulation import Simulation
@@ -36,6 +45,7 @@ def stage(
     simulation: Simulation,
     size: tuple[int, int] = (1280, 720),
     rules: DetailRules | None = None,
+    blade_rules: BladeRules | None = None,
 ) -> Renderer:
     """A renderer that holds everything of a simulation's scene.
 
@@ -43,6 +53,7 @@ def stage(
         simulation: whose plants and ground to draw.
         size: width and height, pixels.
         rules: what may be spent; None for what suits the device.
+        blade_rules: the same for underbrush.
 
     Raises:
         GraphicsError: there is no graphics adapter.
@@ -50,7 +61,10 @@ def stage(
     plants = [kind.plant for kind in simulation.kinds]
     geometries = [build_geometry(plant) for plant in plants]
     ground = ground_grid(simulation.scene.terrain)
-    return Renderer(plants, geometries, ground, size, rules, extra_looks=LEVEL_LOOKS)
+    beds = () if simulation.meadow is None else simulation.meadow.beds
+    return Renderer(
+        plants, geometries, ground, size, rules, extra_looks=LEVEL_LOOKS, beds=beds, blade_rules=blade_rules
+    )
 
 
 def frame_now(simulation: Simulation, view: View | None = None, level_colours: bool = False) -> Frame:
@@ -80,7 +94,17 @@ def frame_now(simulation: Simulation, view: View | None = None, level_colours: b
         sun=_triple(scene.sun_direction),
         time=simulation.time,
         wind=(float(x), float(y)),
+        meadow=meadow_motion(simulation),
     )
+
+
+def meadow_motion(simulation: Simulation) -> MeadowMotion | None:
+    """How the blades of a simulation lean at this moment; None where it has none."""
+    if simulation.meadow is None:
+        return None
+    states = [state for bed in simulation.meadow.beds for state in bed.states if state is not None]
+    ahead = simulation.time - simulation.step_count * TIME_STEP
+    return MeadowMotion(tuple(state.lanes for state in states), ahead)
 
 
 def level_colour(levels: Sequence[Level], at: Ints) -> Ints:

@@ -37,6 +37,8 @@ fn fragment(in: Ground) -> @location(0) vec4f {
         let grain = ground_noise(at, 1.9, away).g;
         let tufts = ground_noise(mat2x2f(0.8, 0.6, -0.6, 0.8) * at, 6.1, away).g;
         albedo *= mix(0.35 + 0.75 * grain + 0.55 * tufts, 1.0, far);
+        // Between blades lie litter and shade; far off they cover it, and the ground has their colour.
+        albedo *= mix(vec3f(1.0), vec3f(0.64, 0.56, 0.48), frame.terrain.w * (1.0 - far));
     }
 
     let normal = normalize(in.normal);

@@ -11,7 +11,7 @@ struct Frame {
     sky_light: vec4f,          // linear RGB of the sky on a surface that faces up; 0
     haze: vec4f,               // linear RGB of the horizon; extinction, 1/m
     wind: vec4f,               // mean wind x, y in m/s; distance it has blown x, y in m
-    terrain: vec4f,            // origin x, y in m; spacing, m; 0
+    terrain: vec4f,            // origin x, y in m; spacing, m; 1 where real blades stand on it
 }
 
 struct Placement {

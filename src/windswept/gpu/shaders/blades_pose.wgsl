@@ -1,0 +1,182 @@
+// Where every section of every blade in sight is: motion/blades/pose_blades.py on the card, a blade a thread.
+// Set: types + rotation + blades_types + blades_pose.
+
+override LAST_NORM: f32 = 0.95276552;
+const LARGEST_LEAN = 0.99999;
+const STATE_ROWS = 7u;
+const WIDTH = 8u;
+const FADE = 0.25;   // of the blades that are drawn, the last ones grow thin
+
+@group(1) @binding(0) var<storage, read> blades: array<BladeRow>;
+@group(1) @binding(1) var<storage, read> items: array<vec4u>;   // blade; first posed joint; run; parent's or NONE
+@group(1) @binding(2) var<storage, read> leans: array<f32>;
+@group(1) @binding(3) var<storage, read> tables: array<vec2f>;
+@group(1) @binding(4) var<storage, read> runs: array<BladeRun>;
+@group(1) @binding(5) var<storage, read> borders: array<f32>;
+@group(1) @binding(6) var<storage, read_write> posed: array<PosedJoint>;
+@group(1) @binding(7) var<uniform> meadow_pass: MeadowPass;
+
+struct Basis {
+    axis: vec3f,
+    normal: vec3f,
+    side: vec3f,
+}
+
+struct Root {
+    place: vec3f,
+    basis: Basis,
+}
+
+// Where a lean lies in a table: the bin's first node, and how far into the bin along angle, norm and direction.
+struct Bin {
+    first: u32,
+    along_angle: u32,
+    along_norm: u32,
+    part: vec3f,
+    mirror: f32,
+}
+
+fn side_of(facing: vec4u) -> vec3f {
+    return vec3f(unpack2x16snorm(facing.x), unpack2x16snorm(facing.y).x);
+}
+
+fn normal_of(facing: vec4u) -> vec3f {
+    return vec3f(unpack2x16snorm(facing.y).y, unpack2x16snorm(facing.z));
+}
+
+fn orthogonal(axis: vec3f, normal: vec3f) -> Basis {
+    let across = normalize(normal - axis * dot(axis, normal));
+    return Basis(axis, across, cross(axis, across));
+}
+
+// The root in the world, and the base frame there.
+fn root_of(blade: BladeRow, parent: u32) -> Root {
+    let q = vec4f(unpack2x16snorm(blade.bits.x), unpack2x16snorm(blade.bits.y));
+    let unit = q / length(q);
+    let own = Basis(rotate(unit, vec3f(1.0, 0.0, 0.0)), rotate(unit, vec3f(0.0, 1.0, 0.0)), rotate(unit, vec3f(0.0, 0.0, 1.0)));
+    if parent == NONE { return Root(blade.place.xyz, own); }
+    let sections = (posed[parent].facing.w & 15u) + 1u;
+    let along = clamp(blade.place.x, 0.0, 1.0) * f32(sections);
+    let section = min(u32(along), sections - 1u);
+    let below = posed[parent + section];
+    let above = posed[parent + section + 1u];
+    let held = orthogonal(normalize(above.place.xyz - below.place.xyz), normal_of(below.facing) + normal_of(above.facing));
+    let frame_of = mat3x3f(held.axis, held.normal, held.side);
+    return Root(
+        mix(below.place.xyz, above.place.xyz, along - f32(section)),
+        Basis(frame_of * own.axis, frame_of * own.normal, frame_of * own.side)
+    );
+}
+
+// z of the base frame's axis, normal and side at rest: where its weight pulls.
+fn rest_down(bits: u32) -> vec3f {
+    let folded = unpack2x16snorm(bits);
+    var down = vec3f(folded, 1.0 - abs(folded.x) - abs(folded.y));
+    let under = max(-down.z, 0.0);
+    down.x += select(under, -under, down.x >= 0.0);
+    down.y += select(under, -under, down.y >= 0.0);
+    return normalize(down);
+}
+
+fn bin_of(table: vec4u, sections: u32, lean: vec3f) -> Bin {
+    let across = length(lean.yz);
+    let size = min(length(lean), LARGEST_LEAN);
+    let load = size / sqrt(1.0 - size * size);
+    let place = vec3f(
+        atan2(across, lean.x) / 3.14159265,
+        (1.0 - 1.0 / sqrt(1.0 + 2.0 * load)) / LAST_NORM,
+        atan2(abs(lean.z), lean.y) / 3.14159265
+    ) * vec3f(table.yzw);
+    let cell = clamp(floor(place), vec3f(0.0), vec3f(table.yzw) - 1.0);
+    let node = vec3u(cell);
+    let along_norm = (table.w + 1u) * sections;
+    let along_angle = (table.z + 1u) * along_norm;
+    let first = table.x + node.x * along_angle + node.y * along_norm + node.z * sections;
+    return Bin(first, along_angle, along_norm, place - cell, select(-1.0, 1.0, lean.z >= 0.0));
+}
+
+// Turns of one joint, interpolated between the eight nodes round the lean.
+fn turns_at(bin: Bin, sections: u32, joint: u32) -> vec2f {
+    let a = bin.first + joint;
+    let b = a + bin.along_norm;
+    let c = a + bin.along_angle;
+    let d = c + bin.along_norm;
+    let w = bin.part.z;
+    let here = mix(mix(tables[a], tables[a + sections], w), mix(tables[b], tables[b + sections], w), bin.part.y);
+    let there = mix(mix(tables[c], tables[c + sections], w), mix(tables[d], tables[d + sections], w), bin.part.y);
+    return mix(here, there, bin.part.x) * vec2f(1.0, bin.mirror);
+}
+
+// Bent across the flat face, then to the side.
+fn bent(f: Basis, turn: vec2f) -> Basis {
+    let c = cos(turn);
+    let s = sin(turn);
+    let ahead = f.axis * c.x + f.normal * s.x;
+    return Basis(ahead * c.y + f.side * s.y, f.normal * c.x - f.axis * s.x, f.side * c.y - ahead * s.y);
+}
+
+// How much wider than itself a blade is drawn: few stand for many, and the last of the few are thin.
+fn widening(run: BladeRun, chance: f32, away: f32) -> f32 {
+    let share = run.width.x * meadow_pass.now.y / (away * meadow_pass.now.z);
+    let shown = clamp((share - chance) / (FADE * share), 0.0, 1.0);
+    let all = min(share, 1.0 / (1.0 - FADE));
+    let past = max(all - 1.0, 0.0);
+    let mean_shown = select(
+        (1.0 - 0.5 * FADE) * all,
+        (1.0 - FADE) * all + (FADE * FADE * all * all - past * past) / (2.0 * FADE * all),
+        all > 1.0
+    );
+    let last = meadow_pass.now.w;
+    return run.width.y * shown / mean_shown * (1.0 - smoothstep(0.7 * last, last, away));
+}
+
+fn packed(side: vec3f, normal: vec3f, rest: u32) -> vec4u {
+    return vec4u(pack2x16snorm(side.xy), pack2x16snorm(vec2f(side.z, normal.x)), pack2x16snorm(normal.yz), rest);
+}
+
+@compute @workgroup_size(64)
+fn pose(@builtin(global_invocation_id) id: vec3u) {
+    let number = id.x + id.y * 65536u;
+    if number >= meadow_pass.items.y { return; }
+    let item = items[meadow_pass.items.x + number];
+    let blade = blades[item.x];
+    let run = runs[item.z];
+    let root = root_of(blade, item.w);
+    let chance = f32(blade.bits.w & 0xffffu) / 65536.0;
+    let size = blade.place.w;
+    let sections = run.rows.z;
+
+    var moved = vec3f(0.0);
+    var broken = false;
+    if run.rows.y != NONE {
+        let local = item.x - run.rows.x;
+        let at = run.rows.y + (local / WIDTH) * STATE_ROWS * WIDTH + local % WIDTH;
+        let lean = vec3f(leans[at], leans[at + WIDTH], leans[at + 2u * WIDTH]);
+        let rate = vec3f(leans[at + 3u * WIDTH], leans[at + 4u * WIDTH], leans[at + 5u * WIDTH]);
+        moved = lean + meadow_pass.now.x * rate;
+        broken = leans[at + 6u * WIDTH] > 0.5;
+    }
+    let weight = -run.shape.y * select(1.0, run.shape.z, broken) * rest_down(blade.bits.z);
+    let lean = moved + weight / sqrt(1.0 + dot(weight, weight));
+    var table = run.whole;
+    if broken { table = run.broken; }
+    let bin = bin_of(table, sections, lean);
+
+    let wide = pow(size, run.shape.w) * widening(run, chance, max(distance(root.place, frame.eye.xyz), 0.3));
+    let rest = (item.z << 20u) | (u32(255.0 * chance) << 12u) | (sections - 1u);
+    var before = root.basis;
+    var place = root.place;
+    for (var joint = 0u; joint < sections; joint += 1u) {
+        let now = bent(before, turns_at(bin, sections, joint));
+        let along = u32(255.0 * f32(joint) / f32(sections)) << 4u;
+        // At a joint the surface faces between its two sections; the base frame is none.
+        if joint == 0u { before = now; }
+        let side = normalize(before.side + now.side);
+        let normal = normalize(before.normal + now.normal);
+        posed[item.y + joint] = PosedJoint(vec4f(place, wide * borders[run.rows.w + joint]), packed(side, normal, rest | along));
+        place += size * run.shape.x * now.axis;
+        before = now;
+    }
+    let end = vec4f(place, wide * borders[run.rows.w + sections]);
+    posed[item.y + sections] = PosedJoint(end, packed(before.side, before.normal, rest | (255u << 4u)));
+}
