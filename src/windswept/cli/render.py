@@ -53,6 +53,7 @@ def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, in
 @click.option(
     "--gpu", is_flag=True, help="Simulate on the graphics card; on the CPU where it has too little memory."
 )
+@click.option("--multibody", is_flag=True, help="Move plants near the camera with all their links coupled.")
 @click.option("--json", "as_json", is_flag=True, help="Report as one JSON object.")
 def command(
     source: str,
@@ -64,6 +65,7 @@ def command(
     levels: bool,
     level_colours: bool,
     gpu: bool,
+    multibody: bool,
     as_json: bool,
 ) -> None:
     """Draw SCENE (a scene file, or a SOURCE: a lone plant) to a picture or a video, without a screen.
@@ -73,20 +75,32 @@ def command(
     from windswept.render.film import check_film
 
     check_film(output)
+    check_multibody(multibody, gpu)
     scene = load_scene(source, seed)
     if duration is not None:
         scene = replace(scene, duration=duration)
-    figures = render_scene(scene, output, size, at, levels, level_colours, gpu=gpu)
+    figures = render_scene(scene, output, size, at, levels, level_colours, gpu=gpu, multibody=multibody)
     if as_json:
         click.echo(json.dumps(figures))
 
 
+def check_multibody(multibody: bool, gpu: bool) -> None:
+    """Only the CPU couples links."""
+    if multibody and gpu:
+        raise InputError("--gpu", "", None, "no --multibody beside it, which moves plants on the CPU")
+
+
 def start(
-    scene: Scene, levels: bool, picture_height: int, gpu: bool, say: Callable[[str], None]
+    scene: Scene,
+    levels: bool,
+    picture_height: int,
+    gpu: bool,
+    say: Callable[[str], None],
+    multibody: bool = False,
 ) -> Simulation | GpuSimulation:
     """The scene in motion on the CPU, or on the card if that is asked for and it has the memory."""
     if not gpu:
-        return Simulation(scene, levels=levels, picture_height=picture_height, say=say)
+        return Simulation(scene, levels=levels, picture_height=picture_height, say=say, multibody=multibody)
     from windswept.gpu.springs.kinds import grown_kinds
     from windswept.gpu.springs.simulation import GpuSimulation
 
@@ -108,13 +122,14 @@ def render_scene(
     level_colours: bool = False,
     still: tuple[Path, float] | None = None,
     gpu: bool = False,
+    multibody: bool = False,
 ) -> dict[str, Any]:
     """Simulates and draws a scene with progress on stderr, and says what it took."""
     from windswept.render.film import PICTURE_ENDINGS, Shot, film_picture, film_video
 
     started = time.perf_counter()
     with status_line("growing plants") as say:
-        simulation = start(scene, levels, size[1], gpu, say)
+        simulation = start(scene, levels, size[1], gpu, say, multibody)
     ready = time.perf_counter()
     with progress_bar(f"drawing {output.name}") as progress:
         shot = Shot(size, level_colours, progress)

@@ -12,7 +12,7 @@ import numpy as np
 
 from windswept.cli.numbers import SEED
 from windswept.cli.progress import status_line
-from windswept.cli.render import start
+from windswept.cli.render import check_multibody, start
 from windswept.levels import Eye
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Scene
@@ -37,21 +37,24 @@ COUNT_EVERY = 15
 @click.option(
     "--gpu", is_flag=True, help="Simulate on the graphics card; on the CPU where it has too little memory."
 )
-def command(source: str, seed: int | None, level_colours: bool, gpu: bool) -> None:
+@click.option("--multibody", is_flag=True, help="Move plants near the camera with all their links coupled.")
+def command(source: str, seed: int | None, level_colours: bool, gpu: bool, multibody: bool) -> None:
     """Open a live window on SCENE: drag to orbit, scroll to zoom, sliders for the wind, pause.
 
     Example: windswept view weeping_willow
     """
-    view_scene(load_scene(source, seed), level_colours, gpu)
+    check_multibody(multibody, gpu)
+    view_scene(load_scene(source, seed), level_colours, gpu, multibody)
 
 
-def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False) -> None:
+def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, multibody: bool = False) -> None:
     """Opens the window and runs until it is closed.
 
     Args:
         scene: to show.
         level_colours: colour plants by their simulation level.
         gpu: simulate on the card.
+        multibody: couple the links of plants near the camera; on the CPU.
 
     Raises:
         GraphicsError: no display, no adapter, or the window libraries are not installed.
@@ -65,7 +68,7 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False) -> 
 
     require_display()
     with status_line("growing plants") as say:
-        simulation = start(scene, True, PICTURE_HEIGHT, gpu, say)
+        simulation = start(scene, True, PICTURE_HEIGHT, gpu, say, multibody)
         plants = [kind.plant for kind in simulation.kinds]
         geometries = [build_geometry(plant) for plant in plants]
 

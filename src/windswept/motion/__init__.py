@@ -1,5 +1,6 @@
 """Motion models on the CPU: from a Plant to a Model, a State that steps, and the Pose it strikes."""
 
+from windswept.motion.build_stepper import build_stepper
 from windswept.motion.level import Level, finest_level
 from windswept.motion.model import TIME_STEP, Model, build_model
 from windswept.motion.modes import plant_frequencies
@@ -15,6 +16,7 @@ __all__ = [
     "State",
     "Stepper",
     "build_model",
+    "build_stepper",
     "finest_level",
     "plant_frequencies",
     "pose_links",

@@ -59,6 +59,8 @@ class Level:
     """(L, 2, 9) what each joint's angles are under its group's u, see shapes.py; all levels of a plant share it."""
     shape_limit: float
     """Pressure up to which the shapes hold, (m/s)^2; beyond it they go on in proportion."""
+    coupled: bool = False
+    """Whether links drive one another: stepped by `multibody` instead of `springs`."""
 
     @property
     def link_count(self) -> int:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from windswept.motion import Level, Stepper, rest_state
+from windswept.motion import Level, Model, build_stepper, rest_state
 from windswept.motion.lanes import WIDTH
 from windswept.plants.plant import Floats, Ints
 from windswept.scene.probes import Probes, field_at_probes, place_probes, wind_at_probes
@@ -18,15 +20,18 @@ class LevelSet:
     """Placements move in and out; the state of those that stay is not touched.
 
     Args:
+        model: the plant's constants.
         level: what of the plant is stepped.
         placements: of the kind, all of them.
         terrain: they stand on.
         members: (M,) placements that are in the set from the beginning, at rest.
     """
 
-    def __init__(self, level: Level, placements: Placements, terrain: Terrain, members: Ints) -> None:
+    def __init__(
+        self, model: Model, level: Level, placements: Placements, terrain: Terrain, members: Ints
+    ) -> None:
         self.level = level
-        self.stepper = Stepper(level)
+        self.stepper = build_stepper(model, level)
         self.members: list[int] = [int(m) for m in members]
         """Which placement each slot of the state is."""
         self.state = rest_state(level, len(self.members))
@@ -44,39 +49,36 @@ class LevelSet:
         """Slot of a member."""
         return self.members.index(placement)
 
-    def add(self, placement: int, joints: Floats, groups: Floats) -> None:
+    def add(self, placement: int, *parts: Floats) -> None:
         """Takes a placement in with a state of its own.
 
         Args:
             placement: not yet a member.
-            joints: (A, 4) as in ``State``.
-            groups: (G, 6) as in ``State``.
+            parts: its slice of every part of ``State``: (A, 4) joints, (G, 6) groups, (A, 6) carried where coupled.
         """
-        slot, state = len(self.members), self.state
-        if slot == len(state.joints) * WIDTH:
-            grown = rest_state(self.level, slot + WIDTH)
-            state.joints = np.concatenate([state.joints, grown.joints[-1:]])
-            state.groups = np.concatenate([state.groups, grown.groups[-1:]])
+        slot = len(self.members)
+        if slot == len(self.state.joints) * WIDTH:
+            self.state.add_tile()
         self.members.append(placement)
-        state.placement_count = len(self.members)
-        self._put(slot, joints, groups)
+        self.state.placement_count = len(self.members)
+        self._put(slot, parts)
         self._probes = None
 
     def remove(self, placement: int) -> None:
         """Lets a member go; the last member takes its slot."""
         slot, last = self.slot(placement), len(self.members) - 1
         tile, lane = divmod(last, WIDTH)
-        self._put(slot, self.state.joints[tile, :, :, lane], self.state.groups[tile, :, :, lane])
-        self._put(last, np.float32(0.0), np.float32(0.0))
+        self._put(slot, [part[tile, :, :, lane] for part in self.state.parts])
+        self._put(last, [np.float32(0.0)] * len(self.state.parts))
         self.members[slot] = self.members[last]
         self.members.pop()
         self.state.placement_count = last
         self._probes = None
 
-    def _put(self, slot: int, joints: Floats | np.float32, groups: Floats | np.float32) -> None:
+    def _put(self, slot: int, parts: Sequence[Floats | np.float32]) -> None:
         tile, lane = divmod(slot, WIDTH)
-        self.state.joints[tile, :, :, lane] = joints
-        self.state.groups[tile, :, :, lane] = groups
+        for part, one in zip(self.state.parts, parts, strict=True):
+            part[tile, :, :, lane] = one
 
     def sample_winds(self, wind: Wind, start: float, stop: float) -> None:
         """Samples the wind at both ends of an interval, s."""

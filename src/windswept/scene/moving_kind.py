@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -66,6 +66,7 @@ class MovingKind:
         terrain: they stand on.
         levels: whether they may be simulated at coarser levels than 0.
         ladder: of the plant; None builds it when it is needed.
+        multibody: whether those at level 0 are moved by `multibody`; a ladder that is given says so itself.
     """
 
     def __init__(
@@ -75,16 +76,19 @@ class MovingKind:
         terrain: Terrain,
         levels: bool = False,
         ladder: Ladder | None = None,
+        multibody: bool = False,
     ) -> None:
         self.plant, self.placements = plant, placements
         self.model: Model = build_model(plant) if ladder is None else ladder.hierarchy.model
-        self.ladder = (
-            measured_ladder(build_ladder(simplify(self.model))) if levels and ladder is None else ladder
-        )
-        rungs = (finest_level(self.model),) if self.ladder is None else self.ladder.levels
+        if levels and ladder is None:
+            ladder = measured_ladder(build_ladder(simplify(self.model), multibody))
+        self.ladder = ladder
+        finest = replace(finest_level(self.model), coupled=multibody)
+        rungs = (finest,) if ladder is None else ladder.levels
         everyone = np.arange(placements.count, dtype=np.int32)
         self.sets = [
-            LevelSet(rung, placements, terrain, everyone[: 0 if k else None]) for k, rung in enumerate(rungs)
+            LevelSet(self.model, rung, placements, terrain, everyone[: 0 if k else None])
+            for k, rung in enumerate(rungs)
         ]
         """Placements by shared level."""
         self.near: dict[int, LevelSet] = {}
@@ -132,6 +136,8 @@ class MovingKind:
         alone = np.bincount(given, minlength=len(self.sets)) == 1
         own = np.zeros(len(away), bool)
         own[list(self.near)] = True
+        # A cut of its own is stepped by `springs`, whose error would be seen where `multibody` is asked for.
+        alone &= ~np.array([s.level.coupled for s in self.sets])
         near = alone[given] & (away < NEAR * self.radius * np.where(own, 1.0 + eye.dead_band, 1.0))
         for placement in np.flatnonzero((given != self.at) | own | near).tolist():
             if placement not in self.blends:
@@ -172,6 +178,7 @@ class MovingKind:
         towards = (eye.position - self.placements.position[placement])[None, None]
         seen_from = turn_about_z(towards, -self.placements.yaw[placement : placement + 1])[0, 0]
         own = LevelSet(
+            self.model,
             near_cut(self.ladder, self._balls, eye, seen_from),
             self.placements,
             self._terrain,

@@ -32,6 +32,8 @@ class Simulation:
         pixels: error that may be seen when they are, at ``picture_height``.
         picture_height: of the picture, pixels.
         say: told of each plant that is grown and compiled.
+        multibody: whether plants at level 0 are moved by `multibody`; with levels it is the first of them, and
+            errors are against it.
     """
 
     def __init__(
@@ -42,6 +44,7 @@ class Simulation:
         pixels: float = 1.0,
         picture_height: int = 720,
         say: Callable[[str], None] = lambda line: None,
+        multibody: bool = False,
     ) -> None:
         self.scene = scene
         self.wind = scene.wind
@@ -51,7 +54,7 @@ class Simulation:
         self._pixels, self._picture_height = pixels, picture_height
         grown = grow_kinds(scene, say) if plants is None else plants
         self.kinds = [
-            MovingKind(plant, placements, scene.terrain, levels)
+            MovingKind(plant, placements, scene.terrain, levels, multibody=multibody)
             for plant, placements in zip(grown, scene.placements, strict=True)
         ]
         self.meadow = Meadow(scene, picture_height, say) if scene.colonies else None

@@ -60,10 +60,10 @@ def beaudoin(
     bound = bound_errors(one)
     if folder is not None:
         draw_beaudoin(plant, hierarchy.model, ours, folder, say)
-    full, pixel = nanoseconds_per_step(finest), pixel_at_crown_distance(ladder)
+    full, pixel = nanoseconds_per_step(hierarchy.model, finest), pixel_at_crown_distance(ladder)
     rows = []
     for rung, ((branches, fps), level) in enumerate(zip(PAPER, ours, strict=True)):
-        nanoseconds = nanoseconds_per_step(level)
+        nanoseconds = nanoseconds_per_step(hierarchy.model, level)
         row: dict[str, float] = {
             "paper_branches": branches,
             "paper_fps": fps,

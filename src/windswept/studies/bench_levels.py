@@ -34,11 +34,11 @@ def bench_levels(say: Callable[[str], None] = lambda line: None) -> dict[str, fl
         figures[f"{name}.links"] = plant.link_count
         figures[f"{name}.build_seconds"] = time.perf_counter() - started
         figures[f"{name}.bytes_ratio"] = levels_bytes(ladder) / plant_bytes(plant, ladder.levels[0])
-        full = nanoseconds_per_step(ladder.levels[0])
+        full = nanoseconds_per_step(model, ladder.levels[0])
         for rung, level in enumerate(ladder.levels):
             at = f"{name}.{rung}"
             figures[f"{at}.links"] = level.link_count + level.group_count
-            figures[f"{at}.speedup"] = full / nanoseconds_per_step(level)
+            figures[f"{at}.speedup"] = full / nanoseconds_per_step(model, level)
         if not large:
             figures |= _accuracy(ladder, name)
     return figures

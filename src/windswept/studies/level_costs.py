@@ -6,15 +6,15 @@ import numpy as np
 
 from windswept.levels import Ladder
 from windswept.levels.training_wind import training_wind, wind_on
-from windswept.motion import Level, Stepper, rest_state
+from windswept.motion import Level, Model, build_stepper, rest_state
 from windswept.motion.lanes import WIDTH
 from windswept.plants.plant import Plant
 from windswept.studies.machine import median_seconds
 
 
-def nanoseconds_per_step(level: Level, steps: int = 8) -> float:
+def nanoseconds_per_step(model: Model, level: Level, steps: int = 8) -> float:
     """Wall time of one inner step of one placement, in a full register of placements, ns."""
-    stepper, state = Stepper(level), rest_state(level, WIDTH)
+    stepper, state = build_stepper(model, level), rest_state(level, WIDTH)
     wind = wind_on(level, training_wind(), 5.0)
     return 1e9 * median_seconds(lambda: stepper.step(state, wind, wind, steps), repeats=7) / (steps * WIDTH)
 
@@ -31,7 +31,9 @@ def plant_bytes(plant: Plant, finest: Level) -> int:
 
 def levels_bytes(ladder: Ladder) -> int:
     """Memory that the levels beyond level 0 add: their own arrays and the static shapes that all share."""
-    return ladder.hierarchy.shapes.nbytes + sum(_bytes_of(level) for level in ladder.levels[1:])
+    return ladder.hierarchy.shapes.nbytes + sum(
+        _bytes_of(level) for level in ladder.levels[ladder.first_merged :]
+    )
 
 
 def _bytes_of(one: Plant | Level) -> int:

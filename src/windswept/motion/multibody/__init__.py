@@ -9,7 +9,8 @@ One step, for one placement::
 `plain.py` is the same with the whole mass matrix in NumPy for one placement, and the tests hold the two together.
 """
 
-from windswept.motion.multibody.coupled_state import CoupledState, coupled, coupled_rest
+from windswept.motion.multibody.coupled_state import coupled, coupled_rest, link_velocities
 from windswept.motion.multibody.stepper import MultibodyStepper
+from windswept.motion.state import CoupledState
 
-__all__ = ["CoupledState", "MultibodyStepper", "coupled", "coupled_rest"]
+__all__ = ["CoupledState", "MultibodyStepper", "coupled", "coupled_rest", "link_velocities"]

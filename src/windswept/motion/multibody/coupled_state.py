@@ -1,8 +1,6 @@
-"""What moves when all links are coupled: joint angles and rates, and the velocities that the links themselves carry."""
+"""From joint angles and rates to what coupled links carry: the velocities that they themselves have."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass, field
 
 import numpy as np
 from numba import njit
@@ -10,18 +8,10 @@ from numba import njit
 from windswept.motion.lanes import WIDTH
 from windswept.motion.level import finest_level
 from windswept.motion.model import Model
-from windswept.motion.pose_links import pose_links
 from windswept.motion.rods import Doubles
-from windswept.motion.state import State, rest_state
+from windswept.motion.rotation import from_rotation_vector, multiply, rotate
+from windswept.motion.state import CoupledState, State, rest_state
 from windswept.plants.plant import Floats, Ints
-
-
-@dataclass(slots=True)
-class CoupledState(State):
-    """A State at level 0 that also says how the links moved at the end of the last step."""
-
-    carried: Floats = field(default_factory=lambda: np.zeros((0, 0, 6, WIDTH), np.float32))
-    """(T, L, 6, WIDTH) velocity of every link's joint (m/s) and rate of its direction (1/s)."""
 
 
 def coupled(model: Model, state: State) -> CoupledState:
@@ -31,25 +21,13 @@ def coupled(model: Model, state: State) -> CoupledState:
         model: the plant's constants.
         state: at level 0.
     """
-    tiles = len(state.joints)
-    carried = np.zeros((tiles, WIDTH, model.link_count, 6), np.float32)
-    rotation = pose_links(model, finest_level(model), state).rotation.astype(np.float64)
-    skeleton = model.skeleton
+    carried = np.zeros((len(state.joints), model.link_count, 6, WIDTH), np.float32)
     for placement in range(state.placement_count):
-        angles = state.angles(placement).astype(np.float64)
-        rates = state.velocities(placement).astype(np.float64)
         tile, lane = divmod(placement, WIDTH)
-        carried[tile, lane] = _link_velocities(
-            skeleton.parent,
-            skeleton.axes,
-            skeleton.vector,
-            skeleton.attach,
-            rotation[placement],
-            angles,
-            rates,
+        carried[tile, :, :, lane] = link_velocities(
+            model, state.angles(placement), state.velocities(placement)
         )
-    lanes_last = np.ascontiguousarray(carried.transpose(0, 2, 3, 1))
-    return CoupledState(state.joints, state.groups, state.placement_count, state.step_count, lanes_last)
+    return CoupledState(state.joints, state.groups, state.placement_count, state.step_count, carried)
 
 
 def coupled_rest(model: Model, placement_count: int) -> CoupledState:
@@ -57,29 +35,51 @@ def coupled_rest(model: Model, placement_count: int) -> CoupledState:
     return coupled(model, rest_state(finest_level(model), placement_count))
 
 
+def link_velocities(model: Model, angles: Floats, rates: Floats) -> Doubles:
+    """(L, 6) velocity of every link's joint, m/s, and rate of its direction, 1/s.
+
+    Args:
+        model: the plant's constants.
+        angles: (L, 2) of the joints, rad.
+        rates: (L, 2) rad/s.
+    """
+    skeleton = model.skeleton
+    return _link_velocities(
+        skeleton.parent,
+        skeleton.axes,
+        skeleton.vector,
+        skeleton.attach,
+        angles.astype(np.float64),
+        rates.astype(np.float64),
+    )
+
+
 @njit(cache=True)
 def _link_velocities(
-    parent: Ints,
-    axes: Doubles,
-    vector: Doubles,
-    attach: Doubles,
-    rotation: Doubles,
-    angles: Doubles,
-    rates: Doubles,
+    parent: Ints, axes: Doubles, vector: Doubles, attach: Doubles, angles: Doubles, rates: Doubles
 ) -> Doubles:
-    """(L, 6) velocity of every joint and rate of every link's direction, root to leaf."""
+    """Root to leaf."""
     count = len(parent)
-    spin, velocity = np.zeros((count, 3)), np.zeros((count, 6))
+    rotation, spin, velocity = np.zeros((count + 1, 4)), np.zeros((count + 1, 3)), np.zeros((count, 6))
+    rotation[0, 3] = 1.0
     for link in range(count):
         up = parent[link]
+        above = rotation[up + 1]
+        q = (above[0], above[1], above[2], above[3])
         turning = _turning(axes[link], angles[link], rates[link])
+        turned = rotate(q, (turning[0], turning[1], turning[2]))
+        a = angles[link, 0] * axes[link, 0] + angles[link, 1] * axes[link, 1]
+        q = multiply(q, from_rotation_vector((a[0], a[1], a[2])))
+        d = rotate(q, (vector[link, 0], vector[link, 1], vector[link, 2]))
         if up >= 0:
-            turning = spin[up] + _turned(rotation[up], turning)
-            velocity[link, :3] = velocity[up, :3]
-            velocity[link, :3] += attach[link] * np.sqrt(np.sum(vector[up] ** 2)) * velocity[up, 3:]
-        spin[link] = turning
-        direction = _turned(rotation[link], vector[link]) / np.sqrt(np.sum(vector[link] ** 2))
-        velocity[link, 3:] = np.cross(turning, direction)
+            reach = attach[link] * np.sqrt(np.sum(vector[up] ** 2))
+            velocity[link, :3] = velocity[up, :3] + reach * velocity[up, 3:]
+        for k in range(4):
+            rotation[link + 1, k] = q[k]
+        for k in range(3):
+            spin[link + 1, k] = spin[up + 1, k] + turned[k]
+        direction = np.array([d[0], d[1], d[2]]) / np.sqrt(np.sum(vector[link] ** 2))
+        velocity[link, 3:] = np.cross(spin[link + 1], direction)
     return velocity
 
 
@@ -93,10 +93,3 @@ def _turning(axes: Doubles, angles: Doubles, rates: Doubles) -> Doubles:
     curl = (angle - np.sin(angle)) / angle**3 if angle > 1e-3 else 1.0 / 6.0
     swirl = np.cross(a, rate)
     return rate + lean * swirl + curl * np.cross(a, swirl)
-
-
-@njit(cache=True)
-def _turned(q: Doubles, v: Doubles) -> Doubles:
-    """(3,) vector turned by an (x, y, z, w) quaternion."""
-    t = 2.0 * np.cross(q[:3], v)
-    return v + q[3] * t + np.cross(q[:3], t)

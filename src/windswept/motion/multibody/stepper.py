@@ -11,9 +11,9 @@ from windswept.motion.model import Model
 from windswept.motion.multibody.advance import MOTION, advance
 from windswept.motion.multibody.ascend import SUM, ascend
 from windswept.motion.multibody.constants import forces_at, pack_multibody, warped_step
-from windswept.motion.multibody.coupled_state import CoupledState
 from windswept.motion.multibody.descend import RECORD, SLOT, descend
 from windswept.motion.springs import pack_wind
+from windswept.motion.state import CoupledState, State
 from windswept.plants.plant import Floats, Ints
 
 _F = np.float32
@@ -48,7 +48,7 @@ class MultibodyStepper:
 
     def step(
         self,
-        state: CoupledState,
+        state: State,
         wind_before: Floats,
         wind_after: Floats,
         substeps: int = 1,
@@ -56,6 +56,7 @@ class MultibodyStepper:
         interval: int | None = None,
     ) -> CoupledState:
         """Advances a state by ``substeps`` inner steps; arguments as in ``springs.Stepper.step``."""
+        assert isinstance(state, CoupledState)
         level, tiles = self.level, len(state.joints)
         wind = np.stack([pack_wind(level, wind_before), pack_wind(level, wind_after)], axis=1)
         _step_tiles(
