@@ -10,7 +10,7 @@ from windswept.motion import Level, Model, State
 from windswept.motion.multibody import link_velocities
 from windswept.motion.rods import Doubles
 from windswept.motion.rotation import from_rotation_vector, multiply, rotate, rotate_back
-from windswept.motion.shapes import shaped
+from windswept.motion.shapes import shape_slopes, shaped
 from windswept.plants.plant import Floats
 
 REGULAR = 2e-5
@@ -44,12 +44,11 @@ def joint_motion_of(model: Model, level: Level, state: State, placement: int) ->
     return motion[:, :2].astype(np.float32), motion[:, 2:].astype(np.float32)
 
 
-def carry_over(
-    hierarchy: Hierarchy, angles: Floats, velocities: Floats, level: Level
-) -> tuple[Floats, ...]:
+def carry_over(hierarchy: Hierarchy, angles: Floats, velocities: Floats, level: Level) -> tuple[Floats, ...]:
     """State at a level that moves the plant as given joint angles and velocities do.
 
-    Links take their own, and carry the velocities that follow where they are coupled; a group takes the pressure whose static shape is nearest in elastic energy.
+    Links take their own, and carry the velocities that follow where they are coupled; a group takes the pressure
+    whose static shape is nearest in elastic energy.
 
     Args:
         hierarchy: of the plant.
@@ -125,25 +124,24 @@ def _normal_equations(  # type: ignore[no-untyped-def]
 ):
     """(G, 3, 3) and (G, 2, 3): what the joints of each group ask of a change of its pressure, and of its rate."""
     normal, right = np.zeros((len(pressure), 3, 3)), np.zeros((len(pressure), 2, 3))
-    slope = np.empty((2, 3))
     for link in range(len(parent)):
         if listens[link] >= 0:
             continue
         group = -1 - listens[link]
         q_parent, q = _quaternion(rotation, parent[link] + 1), _quaternion(rotation, carrier[group] + 1)
         u = (pressure[group, 0], pressure[group, 1], pressure[group, 2])
-        now = shaped(shapes[link], rotate_back(q_parent, rotate(q, u)), limit)
-        step = 1e-4 * limit
-        for axis in range(3):
-            moved = (u[0] + step * (axis == 0), u[1] + step * (axis == 1), u[2] + step * (axis == 2))
-            then = shaped(shapes[link], rotate_back(q_parent, rotate(q, moved)), limit)
-            slope[0, axis], slope[1, axis] = (then[0] - now[0]) / step, (then[1] - now[1]) / step
+        felt = rotate_back(q_parent, rotate(q, u))
+        now = shaped(shapes[link], felt, limit)
+        slopes = shape_slopes(shapes[link], felt, limit)
         for k in range(2):
-            weighted = stiffness[link, k] * slope[k]
-            for axis in range(3):
-                normal[group, axis] += weighted[axis] * slope[k]
-            right[group, 0] += weighted * (motion[link, k] - now[k])
-            right[group, 1] += weighted * motion[link, k + 2]
+            slope = rotate_back(q, rotate(q_parent, slopes[k]))
+            weight = stiffness[link, k]
+            missing, speed = weight * (motion[link, k] - now[k]), weight * motion[link, k + 2]
+            for i in range(3):
+                for j in range(3):
+                    normal[group, i, j] += weight * slope[i] * slope[j]
+                right[group, 0, i] += slope[i] * missing
+                right[group, 1, i] += slope[i] * speed
     return normal, right
 
 

@@ -6,8 +6,7 @@ import numpy as np
 
 from windswept.levels.influence import Influence
 from windswept.levels.static_angles import static_angles
-from windswept.motion import Model, State, finest_level, pose_links
-from windswept.motion.lanes import WIDTH
+from windswept.motion import Model, finest_level, pose_links, rest_state
 from windswept.motion.rods import Doubles
 from windswept.motion.shapes import SHAPE_COUNT
 from windswept.plants.air import reconfiguration
@@ -16,7 +15,9 @@ from windswept.plants.plant import Floats
 STATED_WIND = 12.0
 """Wind speed that shapes and errors are stated for, m/s."""
 FITTED_SPEEDS = (STATED_WIND, 8.0)
-"""Speeds of the steady winds that the shapes are fitted to, m/s; at each from WIDTH directions all round."""
+"""Speeds of the steady winds that the shapes are fitted to, m/s."""
+DIRECTIONS = 8
+"""From which they blow, all round."""
 REGULAR = 1e-3
 """Keeps second-order terms small that no wind asks for; pressures are in units of the stated wind's."""
 
@@ -40,18 +41,18 @@ def static_shapes(model: Model, influence: Influence) -> Floats:
         influence: its static influence.
     """
     scale = stated_pressure(model, influence)
-    linear = influence.angle * scale
-    normal = np.tile(REGULAR * np.eye(6), (model.link_count, 1, 1))
-    right = np.zeros((model.link_count, 6, 2))
+    winds, pressures = [], []
     for turn, speed in enumerate(FITTED_SPEEDS):
-        azimuth = 2.0 * np.pi * (np.arange(WIDTH) + turn / len(FITTED_SPEEDS)) / WIDTH
-        ways = np.column_stack([np.cos(azimuth), np.sin(azimuth), np.zeros(WIDTH)])
-        angles = static_angles(model, (speed * ways).astype(np.float32))
-        felt = _felt_by_parents(model, angles, ways * stated_pressure(model, influence, speed) / scale)
-        squares = _squares(felt)
-        left = angles.transpose(1, 0, 2) - np.einsum("lij,lpj->lpi", linear, felt)
-        normal += np.einsum("lpa,lpb->lab", squares, squares)
-        right += np.einsum("lpa,lpi->lai", squares, left)
+        azimuth = 2.0 * np.pi * (np.arange(DIRECTIONS) + turn / len(FITTED_SPEEDS)) / DIRECTIONS
+        ways = np.column_stack([np.cos(azimuth), np.sin(azimuth), np.zeros(DIRECTIONS)])
+        winds.append(speed * ways)
+        pressures.append(ways * stated_pressure(model, influence, speed) / scale)
+    angles = static_angles(model, np.concatenate(winds).astype(np.float32))
+    felt = _felt_by_parents(model, angles, np.concatenate(pressures))
+    squares = _squares(felt)
+    left = angles.transpose(1, 0, 2) - np.einsum("lij,lpj->lpi", influence.angle * scale, felt)
+    normal = np.matmul(squares.transpose(0, 2, 1), squares) + REGULAR * np.eye(6)
+    right = np.matmul(squares.transpose(0, 2, 1), left)
     second = np.linalg.solve(normal, right).transpose(0, 2, 1)
     shapes = np.empty((model.link_count, 2, SHAPE_COUNT), np.float32)
     shapes[:, :, :3] = influence.angle
@@ -62,9 +63,10 @@ def static_shapes(model: Model, influence: Influence) -> Floats:
 def _felt_by_parents(model: Model, angles: Floats, pressure: Doubles) -> Doubles:
     """(L, P, 3) each of P pressures in the frame of every link's parent, the plant bent by (P, L, 2) angles."""
     level = finest_level(model)
-    joints = np.zeros((1, model.link_count, 4, WIDTH), np.float32)
-    joints[0, :, ::2] = angles.transpose(1, 2, 0)
-    pose = pose_links(model, level, State(joints, np.zeros((1, 0, 6, WIDTH), np.float32), WIDTH))
+    state = rest_state(level, len(angles))
+    for placement, turned in enumerate(angles):
+        state.angles(placement)[:] = turned
+    pose = pose_links(model, level, state)
     parent = model.skeleton.parent
     q = pose.rotation[:, parent].transpose(1, 0, 2).astype(np.float64)
     q[parent < 0] = (0.0, 0.0, 0.0, 1.0)

@@ -45,3 +45,22 @@ def shaped(shape, u, limit):  # type: ignore[no-untyped-def]
     second = second + xx * shape[1, 3] + yy * shape[1, 4] + zz * shape[1, 5]
     second = second + xy * shape[1, 6] + xz * shape[1, 7] + yz * shape[1, 8]
     return clamped(first, _LIMIT), clamped(second, _LIMIT)
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def shape_slopes(shape, u, limit):  # type: ignore[no-untyped-def]
+    """(2, 3) how both angles of a joint grow with each component of u, rad s^2/m^2; arguments as of `shaped`."""
+    short = limit / sqrt(at_least(dot(u, u), limit * limit))
+    x, y, z = u[0] * short, u[1] * short, u[2] * short
+    return (
+        (
+            shape[0, 0] + 2.0 * x * shape[0, 3] + y * shape[0, 6] + z * shape[0, 7],
+            shape[0, 1] + 2.0 * y * shape[0, 4] + x * shape[0, 6] + z * shape[0, 8],
+            shape[0, 2] + 2.0 * z * shape[0, 5] + x * shape[0, 7] + y * shape[0, 8],
+        ),
+        (
+            shape[1, 0] + 2.0 * x * shape[1, 3] + y * shape[1, 6] + z * shape[1, 7],
+            shape[1, 1] + 2.0 * y * shape[1, 4] + x * shape[1, 6] + z * shape[1, 8],
+            shape[1, 2] + 2.0 * z * shape[1, 5] + x * shape[1, 7] + y * shape[1, 8],
+        ),
+    )
