@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from windswept.levels.cut_level import cut_level
+from windswept.levels.cut_level import compact_level, walk_cut
 from windswept.levels.hierarchy import Hierarchy, way_errors
 from windswept.levels.mismatch import LOG_HIGH, mismatch_table
 from windswept.motion import Level, finest_level
@@ -35,7 +35,7 @@ class Ladder:
     error: Doubles
     """(K,) 95 % of tips are nearer than this to where level 0 has them, m: estimated, or measured once measured."""
     tolerance: Doubles
-    """(K,) reckoned error of the hierarchy's nodes at which each level is cut; 0 where every link is stepped, as `bend` for still."""
+    """(K,) reckoned error of the hierarchy's nodes at which each level is cut; 0 for every link."""
     bound: Doubles | None = None
     """(K,) no tip is farther than this from where level 0 has it, in wind up to the stated speed, m; or None."""
 
@@ -59,9 +59,11 @@ def build_ladder(hierarchy: Hierarchy, multibody: bool = False) -> Ladder:
     """
     levels, cuts = [finest_level(hierarchy.model)], [0.0]
     for tolerance in _tolerances(hierarchy):
-        level = cut_level(hierarchy, tolerance)
-        if level.link_count + level.group_count < STEP * (levels[-1].link_count + levels[-1].group_count):
-            levels.append(level)
+        links, nodes = walk_cut(
+            hierarchy.child, hierarchy.root, hierarchy.error <= tolerance, hierarchy.model.link_count
+        )
+        if len(links) + len(nodes) < STEP * (levels[-1].link_count + levels[-1].group_count):
+            levels.append(compact_level(hierarchy, np.sort(links), nodes))
             cuts.append(float(tolerance))
     # Without inertia a group is an oscillator of endless frequency.
     frequencies = [level.group_frequency for level in levels] + [
