@@ -52,23 +52,28 @@ def bench_gpu_springs(say: Callable[[str], None] = lambda line: None) -> dict[st
 
 def _springs(links: int, placements: int) -> dict[str, float]:
     """One plant at its finest level, many times."""
-    plant = plant_with_links(links)
-    model = build_model(plant)
-    side = int(np.ceil(np.sqrt(placements)))
-    position = np.zeros((placements, 3), np.float32)
-    position[:, :2] = SPACING * np.column_stack(np.divmod(np.arange(placements), side))
-    placed = Placements(position, np.linspace(0.0, 6.0, placements).astype(np.float32))
-    scene = replace(load_scene("hazel"), kinds=(PlantKind("bench", 0),), placements=(placed,))
-    card = GpuSimulation(scene, [GrownKind(plant, model, None, placed)])
+    scene, kind = grove(links, placements)
+    card = GpuSimulation(scene, [kind])
     name = f"gpu.springs.{links}x{placements}"
-    seconds = _seconds_per_step(card) / (links * placements)
-    on_cpu = seconds_per_step(model, placements) / (links * placements)
+    seconds = card_seconds_per_step(card) / (links * placements)
+    on_cpu = seconds_per_step(kind.model, placements) / (links * placements)
     return {
         f"{name}.ns_per_link_step": 1e9 * seconds,
         f"{name}.bytes_per_link_step": bytes_per_link_step(),
         f"{name}.bytes": card.card.bytes,
         f"{name}.times_cpu": on_cpu / seconds,
     }
+
+
+def grove(links: int, placements: int) -> tuple[Scene, GrownKind]:
+    """One plant of so many links, many times, at its finest level."""
+    plant = plant_with_links(links)
+    side = int(np.ceil(np.sqrt(placements)))
+    position = np.zeros((placements, 3), np.float32)
+    position[:, :2] = SPACING * np.column_stack(np.divmod(np.arange(placements), side))
+    placed = Placements(position, np.linspace(0.0, 6.0, placements).astype(np.float32))
+    scene = replace(load_scene("hazel"), kinds=(PlantKind("bench", 0),), placements=(placed,))
+    return scene, GrownKind(plant, build_model(plant), None, placed)
 
 
 def bytes_per_link_step() -> float:
@@ -80,7 +85,7 @@ def bytes_per_link_step() -> float:
     return 3 * 16 + 2 * 80 + 32
 
 
-def _seconds_per_step(card: GpuSimulation) -> float:
+def card_seconds_per_step(card: GpuSimulation) -> float:
     """Median time of one inner step of all placements, s: of the steps alone where the card has a clock."""
     interval = WIND_INTERVAL * TIME_STEP
 

@@ -38,8 +38,8 @@ class CardState:
         self._waves, self._gusts = GrowingBuffer(device, layouts.WAVE), GrowingBuffer(device, layouts.GUST)
         placements, rungs = len(arrays.rooted), len(arrays.rungs)
         self.resources: dict[str, Any] = {
-            "kinds": filled(device, _table(arrays.kinds, layouts.KIND_LIMIT), UNIFORM),
-            "rungs": filled(device, _table(arrays.rungs, layouts.RUNG_LIMIT), UNIFORM),
+            "kinds": filled(device, table(arrays.kinds, layouts.KIND_LIMIT), UNIFORM),
+            "rungs": filled(device, table(arrays.rungs, layouts.RUNG_LIMIT), UNIFORM),
             "links": filled(device, arrays.links),
             "groups": filled(device, arrays.groups),
             "probes": filled(device, arrays.probes),
@@ -104,11 +104,11 @@ class CardState:
         return np.frombuffer(self._device.queue.read_buffer(buffer, first * row, size), layout).copy()
 
 
-def _table(rows: NDArray[np.void], length: int) -> NDArray[np.void]:
+def table(rows: NDArray[np.void], length: int) -> NDArray[np.void]:
     """Rows, and zeros up to the length that a uniform table has in the shaders."""
-    table = np.zeros(length, rows.dtype)
-    table[: len(rows)] = rows
-    return table
+    whole = np.zeros(length, rows.dtype)
+    whole[: len(rows)] = rows
+    return whole
 
 
 def _heights_texture(device: Any, heights: Floats) -> Any:

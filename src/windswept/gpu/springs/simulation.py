@@ -71,7 +71,7 @@ class GpuSimulation:
         seats = first_seats(kinds, self._arrays, self._eye_now())
         with card_errors("the plants' motion"):
             self.card = CardState(self._device, self._arrays, seats, scene.terrain.heights)
-            self._walk = Walk(self._device, self.card, len(self._arrays.rungs), len(self._arrays.rooted))
+            self._walk = self._new_walk()
             self.card.write_moment(self._moment(0, 0))
             self._write_wind()
             self._record(self._walk.plan, self._walk.sample_wind)
@@ -156,6 +156,10 @@ class GpuSimulation:
     def stage_milliseconds(self) -> dict[str, float]:
         """How long each stage took on the card when it last ran; empty on a card without a clock."""
         return self._walk.times.read()
+
+    def _new_walk(self) -> Walk:
+        """The kernels, over what is on the card."""
+        return Walk(self._device, self.card, len(self._arrays.rungs), len(self._arrays.rooted))
 
     def _begin_interval(self) -> list[Stage]:
         """What comes before the steps of an interval: changes of level, then the winds at both ends."""

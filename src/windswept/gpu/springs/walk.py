@@ -23,6 +23,9 @@ class Walk:
         placements: of all kinds.
     """
 
+    stepped_by = "springs"
+    """Shader set that steps a block."""
+
     def __init__(self, device: Any, card: CardState, rungs: int, placements: int) -> None:
         self._card, self._rungs = card, rungs
         self._crowd = -(-placements // WORKGROUP)
@@ -43,7 +46,7 @@ class Walk:
         self._fit_groups = kernel("fit_groups", "fit_groups")
         self._sample = kernel("wind", "sample")
         self._crown = kernel("crown", "crown_speed")
-        self._step = kernel("springs", "step_block")
+        self._step = kernel(self.stepped_by, "step_block")
         self._pose = kernel("pose_links", "pose_block")
 
     def rebind_wind(self) -> None:

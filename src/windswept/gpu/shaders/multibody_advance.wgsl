@@ -1,0 +1,33 @@
+// Root to leaf once more: every joint's acceleration and step, as motion/multibody/advance.py.
+
+fn advance(links: u32, column: Column, pace: vec4f) {
+    let stride = column.stride;
+    var here = Moving(vec4f(0.0, 0.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0));
+    for (var i = 0u; i < links; i++) {
+        let rod = rods[column.rods + i];
+        let record = record_of(column, i);
+        let above = moving_above(rod, here, column);
+        let before = state[column.state + i * stride];
+        let angles = angles_ahead(before, pace.y);
+        here.rotation = turned(above.rotation, rod, angles);
+        here.along = carried_along(rod, above);
+        let answer_1 = records[record];
+        let answer_2 = records[record + stride];
+        let yield_1 = records[record + 2u * stride].xyz;
+        let yield_2 = records[record + 3u * stride].xyz;
+        let rise = vec2f(
+            answer_1.w - dot(answer_1.xyz, above.turn) - dot(yield_1, here.along),
+            answer_2.w - dot(answer_2.xyz, above.turn) - dot(yield_2, here.along),
+        );
+        let joint = joint_in_world(here.rotation, rod, angles);
+        here.turn = above.turn + rise.x * joint.axis_1 + rise.y * joint.axis_2;
+        keep_moving(rod, here, column);
+        let kept = column.carried + CARRIED * i * stride;
+        carried[kept] = settled(carried[kept] + pace.x * vec4f(here.along, 0.0));
+        let b_gain = pace.x * cross(here.turn, joint.direction);
+        carried[kept + stride] = settled(carried[kept + stride] + vec4f(b_gain, 0.0));
+        let after = clamp(before.xz + pace.x * (before.yw + pace.y * rise), vec2f(-MAX_ANGLE), vec2f(MAX_ANGLE));
+        let rate = before.yw + pace.x * rise;
+        state[column.state + i * stride] = settled(vec4f(after.x, rate.x, after.y, rate.y));
+    }
+}

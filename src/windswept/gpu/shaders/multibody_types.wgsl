@@ -1,0 +1,52 @@
+// Structs of coupled links that cross from Python; gpu/multibody/layouts.py holds the same fields, and a test compares.
+// Set: motion + rotation + multibody_types + ...
+
+struct Rod {
+    axis_1: vec4f,   // unit axis of the first joint; stiffness, N m/rad
+    axis_2: vec4f,   // the same of the second
+    foot: vec4f,     // joint, from the parent's joint and in its frame, m, 0 on the ground; distance of the drag centre, m
+    leaf_1: vec4f,   // drag tensor of the leaves, xx yy zz, kg/m; drag of the wood, kg/m
+    leaf_2: vec4f,   // xy xz yz; damping over stiffness, s
+    mass: vec4f,     // kg; first moment, kg m; inertia across the link through its joint, kg m^2; 0
+    rows: vec4u,     // parent or NONE; probe; depth; what the walks do at it: TIP, FOLLOWS, FORKS, LATER
+}
+
+// A rung whose links are coupled.
+struct Coupled {
+    pace: vec4f,     // step to reckon with, s; how far into it forces are taken, s; the first over the second; 0
+    rows: vec4u,     // first row of rods, carried velocities, records and slots
+}
+
+const TIP = 1u;      // nothing hangs on it
+const FOLLOWS = 2u;  // its parent is the link before it, of which all is at hand
+const FORKS = 4u;    // other links than the next hang on it
+const LATER = 8u;    // links after it hang on its parent too
+
+const CARRIED = 2u;  // rows of a link that last: velocity of its joint, m/s; rate of its direction, 1/s
+const RECORD = 4u;   // rows of a link within a step, see multibody_descend.wgsl and multibody_ascend.wgsl
+const SLOT = 7u;     // rows of a depth within a walk
+const REST_THRESHOLD = 1e-9;
+const TINY = 1e-30;
+
+// Where a lane's numbers lie, and how far apart.
+struct Column {
+    rods: u32,
+    state: u32,
+    carried: u32,
+    records: u32,
+    slots: u32,
+    wind: u32,
+    stride: u32,
+}
+
+fn record_of(column: Column, link: u32) -> u32 {
+    return column.records + RECORD * link * column.stride;
+}
+
+fn slot_of(column: Column, depth: u32) -> u32 {
+    return column.slots + SLOT * depth * column.stride;
+}
+
+fn settled(value: vec4f) -> vec4f {
+    return select(value, vec4f(0.0), abs(value) < vec4f(REST_THRESHOLD));
+}
