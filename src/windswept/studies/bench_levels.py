@@ -13,7 +13,14 @@ from windswept.studies.bench_plants import plant_with_links
 from windswept.studies.level_costs import levels_bytes, nanoseconds_per_step, plant_bytes
 from windswept.studies.merges import links_needed
 
-SPECIES = ("quaking_aspen", "black_tupelo", "weeping_willow", "california_black_oak")
+SPECIES = (
+    "quaking_aspen",
+    "black_tupelo",
+    "weeping_willow",
+    "california_black_oak",
+    "scots_pine",
+    "hazel",
+)
 LARGE = 77_141
 """Branches of the tree in Beaudoin's figure 6."""
 MEASURE_SECONDS = 10.0
