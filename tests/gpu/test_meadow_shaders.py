@@ -124,7 +124,7 @@ def test_what_hangs_on_a_blade_brings_it_along(whole: Any) -> None:
     assert sum(wanted.depth_counts) == len(wanted.items)
     carried = parents >= 0
     first = dict(wanted.items[:, :2].tolist())
-    assert [first[p] for p in parents[carried].tolist()] == wanted.items[carried, 3].tolist()
+    assert [first[p] for p in parents[carried].tolist()] == (wanted.items[carried, 3] // 16).tolist()
     assert (wanted.items[~carried, 3] == layouts.NONE).all()
 
 

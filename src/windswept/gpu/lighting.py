@@ -7,7 +7,7 @@ from typing import Any
 import wgpu
 
 from windswept.gpu.noise import SIZE, noise_levels
-from windswept.gpu.wiring import DEPTH_FORMAT, DRAWING, bind
+from windswept.gpu.wiring import ALL_STAGES, DEPTH_FORMAT, bind
 
 SHADOW_TEXELS = 2048
 """Side of the shadow map."""
@@ -28,10 +28,10 @@ class Lighting:
         ).create_view()
         self.layout = device.create_bind_group_layout(
             entries=[
-                {"binding": 0, "visibility": DRAWING, "texture": {"sample_type": "depth"}},
-                {"binding": 1, "visibility": DRAWING, "sampler": {"type": "comparison"}},
-                {"binding": 2, "visibility": DRAWING, "texture": {"sample_type": "float"}},
-                {"binding": 3, "visibility": DRAWING, "sampler": {"type": "filtering"}},
+                {"binding": 0, "visibility": ALL_STAGES, "texture": {"sample_type": "depth"}},
+                {"binding": 1, "visibility": ALL_STAGES, "sampler": {"type": "comparison"}},
+                {"binding": 2, "visibility": ALL_STAGES, "texture": {"sample_type": "float"}},
+                {"binding": 3, "visibility": ALL_STAGES, "sampler": {"type": "filtering"}},
             ]
         )
         shadow_sampler = device.create_sampler(mag_filter="linear", min_filter="linear", compare="less-equal")

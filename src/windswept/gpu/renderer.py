@@ -36,7 +36,7 @@ SAMPLES = 4
 SHADOW_REACH = (20.0, 120.0)
 """Least and greatest distance from the camera to which shadows are drawn, m; twice that of its target if between."""
 PICTURE_FORMAT = "rgba8unorm-srgb"
-STAGES = ("curves", "shadows", "picture")
+STAGES = ("curves", "shadows", "blades", "picture")
 """Of a frame, as they are timed."""
 
 
@@ -177,12 +177,9 @@ class Renderer:
         encoder = self._device.create_command_encoder()
         around = self._times.around("curves")
         self.posing.encode(encoder, self._frame_group, wanted, frame.motion, around)
-        if self.meadow is not None:
-            blade_pass = encoder.begin_compute_pass()
-            blade_pass.set_bind_group(0, self._frame_group)
-            self.meadow.encode(blade_pass)
-            blade_pass.end()
         self._encode_shadows(encoder, wanted)
+        if self.meadow is not None:
+            self._encode_blades(encoder, self.meadow)
         self._encode_picture(encoder, view, wanted)
         self._device.queue.submit([encoder.finish()])
         return wanted
@@ -213,6 +210,14 @@ class Renderer:
         for drawing in self.beside:
             drawing.draw_shadows(render_pass)
         render_pass.end()
+
+    def _encode_blades(self, encoder: Any, meadow: MeadowDrawing) -> None:
+        """Poses and lights the blades; the shadows of the trees are there already."""
+        compute_pass = encoder.begin_compute_pass(**self._times.around("blades"))
+        compute_pass.set_bind_group(0, self._frame_group)
+        compute_pass.set_bind_group(2, self._lighting.group)
+        meadow.encode(compute_pass)
+        compute_pass.end()
 
     def _encode_picture(self, encoder: Any, view: Any, wanted: DrawList) -> None:
         render_pass = encoder.begin_render_pass(

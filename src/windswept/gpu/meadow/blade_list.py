@@ -33,7 +33,7 @@ class BladeRules:
     """Where the last blades end and the ground's own colour takes over, m."""
 
 
-SOFTWARE_BLADES = BladeRules(1.3, (14.0, 5.0), 110.0)
+SOFTWARE_BLADES = BladeRules(2.0, (16.0, 6.0), 90.0)
 """For a machine that draws triangles on the CPU."""
 
 
@@ -54,7 +54,7 @@ class BladeList:
     """What one frame poses and draws."""
 
     items: NDArray[np.uint32]
-    """(n, 4) blade, its first posed joint, its run, its parent's first posed joint or NONE; parents come first."""
+    """(n, 4) blade, its first posed joint, its run, its carrier (``blades_pose.wgsl``); parents come first."""
     depth_counts: tuple[int, ...]
     """Items on the ground, on those, and so on."""
     draws: tuple[tuple[int, int, int], ...]
@@ -81,13 +81,13 @@ def blade_list(rows: MeadowRows, sharpness: Sharpness, rules: BladeRules) -> Bla
     joints = sections[order] + 1
     first = np.empty(len(chosen), np.int64)
     first[order] = np.cumsum(joints) - joints
-    place = np.full(len(rows.parent), NONE, np.uint32)
-    place[chosen] = first
+    carrier = np.full(len(rows.parent), NONE, np.uint32)
+    carrier[chosen] = 16 * first + sections - 1
     parent = rows.parent[chosen]
     items = np.empty((len(chosen), 4), np.uint32)
     items[:, 0], items[:, 1] = chosen, first
     items[:, 2] = rows.chunk_set[chunk] * LEVELS + level[chunk]
-    items[:, 3] = np.where(parent < 0, NONE, place[parent])
+    items[:, 3] = np.where(parent < 0, NONE, carrier[parent])
     kinds, starts, counts = np.unique(sections[order], return_index=True, return_counts=True)
     firsts = first[order][starts] if len(chosen) else first
     seen = np.zeros(len(rows.set_size), np.bool_)

@@ -64,14 +64,12 @@ class MeadowDrawing:
         self._device, self._rules = device, rules
         self.rows: MeadowRows = meadow_rows(beds, ground)
         self._pose_layout = buffers_layout(device, COMPUTE, *[READ] * 6, WRITE, DYNAMIC_UNIFORM)
-        self._draw_layout = buffers_layout(device, DRAWING, READ, READ, DYNAMIC_UNIFORM)
+        self._draw_layout = buffers_layout(device, DRAWING, READ, DYNAMIC_UNIFORM)
         constants = {"LAST_NORM": LAST_NORM}
         self._pose = compute_pipeline(
-            device, [frame_layout, self._pose_layout], "blades_pose", "pose", constants
+            device, [frame_layout, self._pose_layout, light_layout], "blades_pose", "pose", constants
         )
-        self._draw = colour_pipeline(
-            device, [frame_layout, self._draw_layout, light_layout], "blades", *picture
-        )
+        self._draw = colour_pipeline(device, [frame_layout, self._draw_layout], "blades", *picture)
         self._blades = filled(device, self.rows.blades)
         self._tables = filled(device, self.rows.tables)
         self._runs = filled(device, self.rows.runs)
@@ -132,7 +130,7 @@ class MeadowDrawing:
         self._device.queue.write_buffer(self._passes, 0, rows)
 
     def encode(self, compute_pass: Any) -> None:
-        """Record the dispatches that pose what is drawn, parents first; bind group 0 is set."""
+        """Record the dispatches that pose what is drawn, parents first; bind groups 0 and 2 are set."""
         if self._wanted is None or not len(self._wanted.items):
             return
         group = bind(
@@ -153,10 +151,10 @@ class MeadowDrawing:
             compute_pass.dispatch_workgroups(-(-min(count, ROW) // WORKGROUP), -(-count // ROW))
 
     def draw(self, render_pass: Any) -> None:
-        """Record the draws into the picture; bind groups 0 and 2 are set."""
+        """Record the draws into the picture; bind group 0 is set."""
         if self._wanted is None:
             return
-        group = bind(self._device, self._draw_layout, self._posed.buffer, self._runs, self._pass_binding())
+        group = bind(self._device, self._draw_layout, self._posed.buffer, self._pass_binding())
         render_pass.set_pipeline(self._draw)
         for slot, (_, count, sections) in enumerate(self._wanted.draws):
             render_pass.set_bind_group(1, group, [(MOST_DEPTH + slot) * UNIFORM_STRIDE])

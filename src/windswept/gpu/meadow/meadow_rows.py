@@ -27,8 +27,6 @@ LEVEL_SECTIONS = (16, 3, 2)
 LEVELS = len(LEVEL_SECTIONS)
 CHUNK = 128
 """Neighbouring blades of a kind that are seen or hidden together."""
-MOST_RUNS = 4096
-"""A posed joint has 12 bits for its run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,13 +84,8 @@ def meadow_rows(beds: Sequence[Bed], ground: Ground) -> MeadowRows:
     Args:
         beds: as the scene planted them.
         ground: they stand on.
-
-    Raises:
-        ValueError: more kinds of blades than a posed joint can name.
     """
     sets, state_sizes = _sets(beds)
-    if len(sets) * LEVELS > MOST_RUNS:
-        raise ValueError(f"{len(sets)} sets of blades: at most {MOST_RUNS // LEVELS} can be drawn")
     tables, borders = _Tables(), _Borders()
     runs = np.concatenate([_run(one, level, tables, borders) for one in sets for level in range(LEVELS)])
     rows = [_blade_rows(one, number) for number, one in enumerate(sets)]

@@ -1,5 +1,5 @@
-// Where every section of every blade in sight is: motion/blades/pose_blades.py on the card, a blade a thread.
-// Set: types + rotation + blades_types + blades_pose.
+// Where every section of every blade in sight is: motion/blades/pose_blades.py on the card, a blade a thread. They are
+// lit here as well, joint by joint. Set: types + light + meadow + rotation + blades_types + blades_light + blades_pose.
 
 override LAST_NORM: f32 = 0.95276552;
 const LARGEST_LEAN = 0.99999;
@@ -8,13 +8,14 @@ const WIDTH = 8u;
 const FADE = 0.25;   // of the blades that are drawn, the last ones grow thin
 
 @group(1) @binding(0) var<storage, read> blades: array<BladeRow>;
-@group(1) @binding(1) var<storage, read> items: array<vec4u>;   // blade; first posed joint; run; parent's or NONE
+@group(1) @binding(1) var<storage, read> items: array<vec4u>;   // blade; first posed joint; run; carrier
 @group(1) @binding(2) var<storage, read> leans: array<f32>;
 @group(1) @binding(3) var<storage, read> tables: array<vec2f>;
 @group(1) @binding(4) var<storage, read> runs: array<BladeRun>;
 @group(1) @binding(5) var<storage, read> borders: array<f32>;
 @group(1) @binding(6) var<storage, read_write> posed: array<PosedJoint>;
 @group(1) @binding(7) var<uniform> meadow_pass: MeadowPass;
+// A carrier is the parent's first posed joint x 16 + its sections - 1, or NONE on the ground.
 
 struct Basis {
     axis: vec3f,
@@ -36,10 +37,6 @@ struct Bin {
     mirror: f32,
 }
 
-fn side_of(facing: vec4u) -> vec3f {
-    return vec3f(unpack2x16snorm(facing.x), unpack2x16snorm(facing.y).x);
-}
-
 fn normal_of(facing: vec4u) -> vec3f {
     return vec3f(unpack2x16snorm(facing.y).y, unpack2x16snorm(facing.z));
 }
@@ -50,12 +47,13 @@ fn orthogonal(axis: vec3f, normal: vec3f) -> Basis {
 }
 
 // The root in the world, and the base frame there.
-fn root_of(blade: BladeRow, parent: u32) -> Root {
+fn root_of(blade: BladeRow, carrier: u32) -> Root {
     let q = vec4f(unpack2x16snorm(blade.bits.x), unpack2x16snorm(blade.bits.y));
     let unit = q / length(q);
     let own = Basis(rotate(unit, vec3f(1.0, 0.0, 0.0)), rotate(unit, vec3f(0.0, 1.0, 0.0)), rotate(unit, vec3f(0.0, 0.0, 1.0)));
-    if parent == NONE { return Root(blade.place.xyz, own); }
-    let sections = (posed[parent].facing.w & 15u) + 1u;
+    if carrier == NONE { return Root(blade.place.xyz, own); }
+    let parent = carrier >> 4u;
+    let sections = (carrier & 15u) + 1u;
     let along = clamp(blade.place.x, 0.0, 1.0) * f32(sections);
     let section = min(u32(along), sections - 1u);
     let below = posed[parent + section];
@@ -130,8 +128,25 @@ fn widening(run: BladeRun, chance: f32, away: f32) -> f32 {
     return run.width.y * shown / mean_shown * (1.0 - smoothstep(0.7 * last, last, away));
 }
 
-fn packed(side: vec3f, normal: vec3f, rest: u32) -> vec4u {
-    return vec4u(pack2x16snorm(side.xy), pack2x16snorm(vec2f(side.z, normal.x)), pack2x16snorm(normal.yz), rest);
+// A joint between two sections, lit. A stalk is drawn as a strip that turns to the eye.
+fn joint_between(
+    before: Basis, after: Basis, place: vec3f, half_width: f32, run: BladeRun, look: BladeLook, along: f32
+) -> PosedJoint {
+    let normal = normalize(before.normal + after.normal);
+    var side = normalize(before.side + after.side);
+    var facing = normal;
+    if run.width.z > 0.5 {
+        facing = normalize(frame.eye.xyz - place);
+        side = normalize(cross(before.axis + after.axis, facing));
+    }
+    let lit = sqrt(finished(blade_light(run, look, facing, along, place), place).rgb);
+    let colour = vec3u(round(1023.0 * clamp(lit, vec3f(0.0), vec3f(1.0))));
+    return PosedJoint(vec4f(place, half_width), vec4u(
+        pack2x16snorm(side.xy),
+        pack2x16snorm(vec2f(side.z, normal.x)),
+        pack2x16snorm(normal.yz),
+        colour.r | (colour.g << 10u) | (colour.b << 20u)
+    ));
 }
 
 @compute @workgroup_size(64)
@@ -163,20 +178,21 @@ fn pose(@builtin(global_invocation_id) id: vec3u) {
     let bin = bin_of(table, sections, lean);
 
     let wide = pow(size, run.shape.w) * widening(run, chance, max(distance(root.place, frame.eye.xyz), 0.3));
-    let rest = (item.z << 20u) | (u32(255.0 * chance) << 12u) | (sections - 1u);
-    var before = root.basis;
+    let step = size * run.shape.x;
+    let look = blade_look(chance, root.place, 0.6 * step * f32(sections));
+    var before = bent(root.basis, turns_at(bin, sections, 0u));
     var place = root.place;
-    for (var joint = 0u; joint < sections; joint += 1u) {
+    // The base frame is no section: at the root the surface faces as the first one does.
+    posed[item.y] = joint_between(before, before, place, wide * borders[run.rows.w], run, look, 0.0);
+    for (var joint = 1u; joint < sections; joint += 1u) {
         let now = bent(before, turns_at(bin, sections, joint));
-        let along = u32(255.0 * f32(joint) / f32(sections)) << 4u;
-        // At a joint the surface faces between its two sections; the base frame is none.
-        if joint == 0u { before = now; }
-        let side = normalize(before.side + now.side);
-        let normal = normalize(before.normal + now.normal);
-        posed[item.y + joint] = PosedJoint(vec4f(place, wide * borders[run.rows.w + joint]), packed(side, normal, rest | along));
-        place += size * run.shape.x * now.axis;
+        place += step * before.axis;
+        let half_width = wide * borders[run.rows.w + joint];
+        let along = f32(joint) / f32(sections);
+        posed[item.y + joint] = joint_between(before, now, place, half_width, run, look, along);
         before = now;
     }
-    let end = vec4f(place, wide * borders[run.rows.w + sections]);
-    posed[item.y + sections] = PosedJoint(end, packed(before.side, before.normal, rest | (255u << 4u)));
+    place += step * before.axis;
+    let end = wide * borders[run.rows.w + sections];
+    posed[item.y + sections] = joint_between(before, before, place, end, run, look, 1.0);
 }

@@ -17,7 +17,7 @@ struct BladeRun {
 
 struct PosedJoint {
     place: vec4f,    // world, m; half width, m
-    facing: vec4u,   // side and normal, 6 x 16 bit; run 12 bit, chance 8 bit, place along 8 bit, sections - 1 4 bit
+    facing: vec4u,   // side as drawn and normal, 6 x 16 bit; square roots of the lit colour, 3 x 10 bit
 }
 
 struct MeadowPass {
