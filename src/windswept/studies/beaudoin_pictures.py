@@ -89,8 +89,8 @@ def _poses(model: Model, level: Level, times: Sequence[float]) -> list[Floats]:
 
 def _tree_drawer(plant: Plant) -> Callable[[Floats], Picture]:
     """What draws the tree in a pose, in a scene of its own."""
-    middle = np.array([0.0, 0.0, 0.47 * plant.height])
-    away = np.array([0.0, -2.1 * plant.height, 0.1 * plant.height])
+    middle = np.array([0.0, 0.0, 0.5 * plant.height])
+    away = np.array([0.0, -2.35 * plant.height, 0.1 * plant.height])
     scene = replace(lone_plant("hazel"), camera=standing_camera(middle + away, middle, FIELD_OF_VIEW))
     simulation = Simulation(scene, [plant])
     renderer: Renderer = stage(simulation, TREE)
