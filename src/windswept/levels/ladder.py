@@ -17,7 +17,7 @@ STEP = 0.4
 """Each level has at most this many times the oscillators of the one before."""
 TYPICAL_TO_95 = 2.0
 """95th percentile over standard deviation of the mismatch."""
-DECOUPLED_SHARE = 0.15
+DECOUPLED_SHARE = 0.02
 """Reckoned error of `springs` against `multibody`, as a share of a swaying plant's whole motion."""
 
 
@@ -108,12 +108,14 @@ def estimated_error(hierarchy: Hierarchy, level: Level, group_frequency: Doubles
 
 
 def _under_multibody(ladder: Ladder) -> Ladder:
-    """The ladder with `multibody` as its first rung; every other level but still adds what `springs` loses."""
+    """The ladder with `multibody` first: what `springs` loses adds to what merging does as errors of unlike origin do,
+    by their squares.
+    """
     decoupled = DECOUPLED_SHARE * ladder.error[-1]
     return replace(
         ladder,
         levels=(replace(ladder.levels[0], coupled=True), *ladder.levels),
-        error=np.array([0.0, *(ladder.error[:-1] + decoupled), ladder.error[-1]]),
+        error=np.array([0.0, *np.hypot(ladder.error[:-1], decoupled), ladder.error[-1]]),
         tolerance=np.array([0.0, *ladder.tolerance]),
     )
 

@@ -1,0 +1,66 @@
+"""``--multibody``: plants near the camera with all their links coupled."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from windswept.cli import main
+
+SMALL = """
+seed = 1
+[[plant]]
+source = "hazel"
+position = [0.0, 0.0]
+[camera]
+eye = [0.0, -5.0, 2.0]
+target = [0.0, 0.0, 2.0]
+[time]
+duration_s = 0.2
+fps = 10.0
+"""
+
+
+def run(*arguments: object) -> int:
+    """Exit code of a command line."""
+    try:
+        main([str(a) for a in arguments])
+    except SystemExit as end:
+        return int(end.code or 0)
+    return 0
+
+
+def test_a_scene_is_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene, picture = tmp_path / "small.toml", tmp_path / "a.png"
+    scene.write_text(SMALL)
+    assert run("render", scene, "-o", picture, "--size", "320x240", "--multibody", "--json") == 0
+    figures = json.loads(capsys.readouterr().out)
+    assert figures["placements_by_level"] == [1]
+    assert figures["stepped"] == figures["links"]
+    assert picture.stat().st_size > 500
+
+
+def test_springs_stand_below_multibody_with_their_error(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("levels", "coconut_palm", "--multibody", "--seconds", 1, "--json") == 0
+    rows = json.loads(capsys.readouterr().out)["levels"]
+    assert [row["motion"] for row in rows] == ["multibody"] + ["springs"] * (len(rows) - 1)
+    assert rows[0]["links"] == rows[1]["links"]
+    assert rows[0]["measured_max_m"] == 0.0
+    assert 0.0 < rows[1]["measured_p95_m"] < rows[1]["measured_max_m"] <= rows[1]["bound_m"]
+
+
+@pytest.mark.parametrize("command", [("render", "hazel", "-o", "x.png"), ("view", "hazel")])
+def test_the_card_does_not_couple_links(
+    command: tuple[str, ...],
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(*command, "--multibody", "--gpu") == 2
+    error = capsys.readouterr().err
+    assert len(error.strip().splitlines()) == 1
+    assert "--multibody" in error
+    assert not list(tmp_path.iterdir())
