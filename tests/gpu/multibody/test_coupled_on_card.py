@@ -1,0 +1,179 @@
+"""Parity of coupled links on the card and on the CPU, and what holds of them whatever the card."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from handmade import build_plant, random_tree, straight
+from stands import gaps, stand_of
+from windswept.errors import GraphicsError
+from windswept.gpu.multibody.simulation import CoupledSimulation
+from windswept.gpu.springs.kinds import GrownKind
+from windswept.motion import Model, build_model, finest_level, rest_state
+from windswept.motion.multibody import CoupledState, MultibodyStepper, coupled
+from windswept.motion.multibody.plain import energy
+from windswept.motion.sweeps import joint_torque
+from windswept.plants.plant import Material, Plant
+from windswept.scene.probes import place_probes, wind_at_probes
+from windswept.scene.simulation import Simulation
+
+LIVELY = Material(damping_ratio=0.02, youngs_modulus=2e8)
+FREE = Material(damping_ratio=0.0, wood_drag=0.0, leaf_drag=0.0)
+
+
+@pytest.fixture(scope="module")
+def trees() -> list[Plant]:
+    return [random_tree(seed, material=LIVELY) for seed in (3, 5)]
+
+
+def on_card(plants: list[Plant], counts: list[int], time_step: float | None = None) -> CoupledSimulation:
+    scene = stand_of(plants, counts)
+    models = [build_model(plant, *([time_step] if time_step else [])) for plant in plants]
+    rows = zip(plants, models, scene.placements, strict=True)
+    return CoupledSimulation(scene, [GrownKind(plant, model, None, placed) for plant, model, placed in rows])
+
+
+def on_both(plants: list[Plant], counts: list[int]) -> tuple[Simulation, CoupledSimulation]:
+    return Simulation(stand_of(plants, counts), plants, multibody=True), on_card(plants, counts)
+
+
+def pulled(model: Model, angle: float) -> CoupledState:
+    """At rest, bent as by a pull on all masses until one joint is at an angle."""
+    skeleton, rods = model.skeleton, model.rods
+    force = np.outer(rods.mass, [1.0, 0.3, 0.0])
+    lever = (rods.moment / rods.mass)[:, None] * skeleton.vector
+    tree = (skeleton.parent, 0, skeleton.attach, skeleton.vector, skeleton.axes)
+    bent = joint_torque(*tree, force.copy(), np.cross(lever, force)) * rods.compliance
+    state = rest_state(finest_level(model), 1)
+    state.angles(0)[:] = bent * angle / np.abs(bent).max()
+    return coupled(model, state)
+
+
+def energy_of(model: Model, state: CoupledState) -> float:
+    carried = state.carried[0, :, :, 0].reshape(-1, 2, 3).astype(float)
+    return energy(model, state.angles(0).astype(float), carried)
+
+
+def test_ten_gusty_seconds(trees):
+    simulation, card = on_both(trees, [3, 2])
+    worst, far = np.zeros(2), np.zeros(2)
+    for _ in range(10):
+        worst = np.maximum(worst, gaps(simulation.advance(1.0), card.advance(1.0)))
+        far = np.maximum(
+            far,
+            [
+                np.abs(pose.position - tree.link_base).max() / tree.height
+                for tree, pose in zip(trees, simulation.pose, strict=True)
+            ],
+        )
+    assert far.min() > 0.05
+    # Single precision, added up in another order; asked are 1e-3.
+    assert worst.max() < 5e-6
+
+
+def test_more_placements_than_a_block_holds(trees):
+    simulation, card = on_both(trees, [130, 1])
+    assert gaps(simulation.advance(1.0), card.advance(1.0)).max() < 5e-6
+    np.testing.assert_allclose(card.states[0].carried, simulation.kinds[0].sets[0].state.carried, atol=5e-5)
+
+
+def test_rotations_agree_between_two_steps(trees):
+    simulation, card = on_both(trees, [2, 2])
+    simulation.advance(1.003)
+    card.advance(1.003)
+    for theirs, ours in zip(simulation.pose, card.pose, strict=True):
+        np.testing.assert_allclose(ours.rotation, theirs.rotation, atol=5e-6)
+
+
+def test_frame_rate_does_not_matter(trees):
+    ends = []
+    for rate in (30, 144):
+        card = on_card(trees, [5, 4])
+        for _ in range(rate):
+            card.advance(1.0 / rate)
+        ends.append([card.card.read(name, "<f4").tobytes() for name in ("state", "carried")])
+        assert card.step_count == 120
+    assert ends[0] == ends[1]
+    assert any(ends[0][1])
+
+
+def test_a_large_turn_equals_the_cpu():
+    # Joints far beyond what wind does: their own geometry, forks, and velocities that no joint accounts for.
+    rng = np.random.default_rng(0)
+    tree = random_tree(0, material=LIVELY)
+    card = on_card([tree], [1])
+    model, placements = card.kinds[0].model, card.kinds[0].placements
+    state = rest_state(finest_level(model), 1)
+    state.angles(0)[:] = rng.normal(0.0, 0.3, (model.link_count, 2))
+    state.velocities(0)[:] = rng.normal(0.0, 1.0, (model.link_count, 2))
+    state = coupled(model, state)
+    card.put([state])
+    card.advance(3.0 / 120.0)
+    probes = place_probes(finest_level(model), placements, card.scene.terrain)
+    winds = [wind_at_probes(card.wind, probes, time) for time in (0.0, 4.0 / 120.0)]
+    MultibodyStepper(model).step(state, *winds, substeps=3, interval=4)
+    ours, largest = card.states[0], np.abs(state.velocities(0)).max()
+    assert largest > 30.0
+    assert np.abs(ours.velocities(0) - state.velocities(0)).max() < 3e-5 * largest
+    assert np.abs(ours.angles(0) - state.angles(0)).max() < 1e-5
+
+
+@pytest.mark.parametrize("rate", [1200.0, 120.0, 30.0])
+def test_energy_never_grows(rate):
+    plants = [random_tree(0, material=FREE), build_plant(straight(6.0, 8, 0.05, 0.02), FREE)]
+    card = on_card(plants, [1, 1], 1.0 / rate)
+    models = [kind.model for kind in card.kinds]
+    states = [pulled(model, angle) for model, angle in zip(models, (0.01, 0.05), strict=True)]
+    card.put(states)
+    energies = [[energy_of(*pair) for pair in zip(models, states, strict=True)]]
+    for _ in range(20):
+        card.advance(1.0)
+        energies.append([energy_of(*pair) for pair in zip(models, card.states, strict=True)])
+    whole = np.array(energies) / energies[0]
+    assert np.diff(whole, axis=0).max() < 1e-4
+    for model, state, before, after in zip(models, states, energies[0], whole[-1], strict=True):
+        calm = np.zeros((1, len(model.probe_position), 3), np.float32)
+        MultibodyStepper(model).step(state, calm, calm, card.step_count)
+        assert after == pytest.approx(energy_of(model, state) / before, abs=1e-3)
+    if rate > 1000.0:
+        assert whole.min() > 0.99
+
+
+def test_a_state_that_is_put_is_read_back(trees):
+    rng = np.random.default_rng(1)
+    card = on_card(trees, [70, 3])
+    states = []
+    for kind in card.kinds:
+        count = kind.placements.count
+        state = coupled(kind.model, rest_state(finest_level(kind.model), count))
+        for placement in range(count):
+            state.angles(placement)[:] = rng.normal(size=(kind.model.link_count, 2))
+        state.carried[:] = rng.normal(size=state.carried.shape)
+        states.append(state)
+    card.put(states)
+    for given, back in zip(states, card.states, strict=True):
+        assert back.placement_count == given.placement_count
+        for placement in range(given.placement_count):
+            tile, lane = divmod(placement, 8)
+            assert np.array_equal(back.joints[tile, ..., lane], given.joints[tile, ..., lane])
+            assert np.array_equal(back.carried[tile, ..., lane], given.carried[tile, ..., lane])
+
+
+def test_calm_air_moves_nothing(trees):
+    card = on_card([random_tree(0, material=FREE)], [3])
+    card.advance(0.5)
+    assert not card.states[0].joints.any()
+    assert not card.states[0].carried.any()
+
+
+def test_what_does_not_fit_is_said(trees):
+    scene = stand_of(trees[:1], [64])
+    kind = GrownKind(trees[0], build_model(trees[0]), None, scene.placements[0])
+    links = kind.model.link_count
+    # Joints fit in so much, the records of links do not.
+    room = 64 * 16 * 3 * links
+    with pytest.raises(GraphicsError, match=r"coupled links need .* MB .* on the CPU"):
+        CoupledSimulation(scene, [kind], room)
+    with pytest.raises(GraphicsError, match="on the CPU"):
+        CoupledSimulation(scene, [kind], 1000)
