@@ -21,6 +21,7 @@ NAMES = (
     "spread",
     "draw",
     "gpu_springs",
+    "gpu_multibody",
 )
 
 
@@ -30,7 +31,8 @@ NAMES = (
 def command(names: tuple[str, ...], as_json: bool) -> None:
     """Measure speed on this machine, of some parts or of all.
 
-    Parts: springs, multibody, levels, accuracy, forest, bend, blades, field, growth, spread, draw and gpu_springs.
+    Parts: springs, multibody, levels, accuracy, forest, bend, blades, field, growth, spread, draw, gpu_springs and
+    gpu_multibody.
 
     Example: windswept bench springs --json
     """
