@@ -62,11 +62,17 @@ def carry_over(hierarchy: Hierarchy, angles: Floats, velocities: Floats, level: 
     joints = np.empty((level.link_count, 4), np.float32)
     joints[:, 0::2] = angles[level.link]
     joints[:, 1::2] = velocities[level.link]
-    if level.coupled:
-        carried = link_velocities(hierarchy.model, angles, velocities)[level.link].astype(np.float32)
-        return joints, np.zeros((0, 6), np.float32), carried
+    groups = _pressures(hierarchy, angles, velocities, level)
+    if not level.coupled:
+        return joints, groups
+    carried = link_velocities(hierarchy.model, angles, velocities)[level.link]
+    return joints, groups, carried.astype(np.float32)
+
+
+def _pressures(hierarchy: Hierarchy, angles: Floats, velocities: Floats, level: Level) -> Floats:
+    """(G, 6) pressure of every group, and its rate, whose static shapes are nearest in elastic energy."""
     if level.group_count == 0 or not level.group_constants.any():
-        return joints, np.zeros((level.group_count, 6), np.float32)
+        return np.zeros((level.group_count, 6), np.float32)
     skeleton = hierarchy.model.skeleton
     listens = level.listens
     motion = np.concatenate([angles, velocities], axis=1).astype(np.float64)
@@ -88,7 +94,7 @@ def carry_over(hierarchy: Hierarchy, angles: Floats, velocities: Floats, level: 
         pressure[:, 3:] = change[..., 1]
         if np.abs(change[..., 0]).max() < 1e-5 * level.shape_limit:
             break
-    return joints, pressure.astype(np.float32)
+    return pressure.astype(np.float32)
 
 
 @njit(cache=True)

@@ -15,4 +15,4 @@ def build_stepper(model: Model, level: Level) -> Stepper | MultibodyStepper:
         model: the plant's constants.
         level: what of the plant is stepped.
     """
-    return MultibodyStepper(model) if level.coupled else Stepper(level)
+    return MultibodyStepper(model, level) if level.coupled else Stepper(level)

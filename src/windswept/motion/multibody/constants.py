@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from windswept.motion.level import Level
 from windswept.motion.model import Model
+from windswept.motion.multibody.held_mass import held_mass
 from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats
 
@@ -65,4 +67,11 @@ def pack_multibody(model: Model) -> Floats:
     packed[:, INERTIA] = rods.inertia
     packed[:, STIFFNESS_1 : STIFFNESS_2 + 1] = 1.0 / rods.compliance
     packed[:, LAG] = joint_lag(model)
+    return packed
+
+
+def pack_level(model: Model, level: Level) -> Floats:
+    """(A, COLUMN_COUNT) the same for the active links of a level, with the mass of the groups that they hold."""
+    packed = pack_multibody(model)[level.link]
+    packed[:, (MASS, MOMENT, INERTIA)] += held_mass(model, level)
     return packed

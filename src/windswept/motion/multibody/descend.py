@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from windswept.motion.groups import air_of_group, swing_group
 from windswept.motion.lanes import FAST_MATH, WIDTH, clamped, load, sqrt, store
 from windswept.motion.multibody.constants import (
     AXIS_1,
@@ -117,14 +118,44 @@ def carry(carried, at, now, per_ahead, beyond):  # type: ignore[no-untyped-def]
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def descend(c, depth, probe, joints, carried, wind, a, slots, ahead, beyond):  # type: ignore[no-untyped-def]
+def groups_on(crowd, first, last, groups, wind, a, here, spin, v):  # type: ignore[no-untyped-def]
+    """Swings a range of groups; gives their force and moment about the joint of the link that carries them.
+
+    Args:
+        crowd: constants of the groups, and their probes.
+        first: of the groups.
+        last: behind the last of them.
+        groups: pressure and rate of all groups, updated.
+        wind: air velocity and leaf reconfiguration at the probes.
+        a: scratch.
+        here: slot with the carrier's rotation.
+        spin: angular velocity of the carrier.
+        v: velocity of its joint.
+    """
+    g, group_probe = crowd
+    zero = spin[0] * _F(0.0)
+    force, moment = (zero, zero, zero), (zero, zero, zero)
+    for k in range(first, last):
+        carrier = (load4(a, here), (zero, zero, zero), spin, v)
+        on = swing_group(g, k, air_of_group(wind, group_probe[k]), groups, carrier)
+        force, moment = add_scaled(force, on[0], _F(1.0)), add_scaled(moment, on[1], _F(1.0))
+    return force, moment
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def descend(  # type: ignore[no-untyped-def]
+    c, depth, probe, crowd, group_start, joints, groups, carried, wind, a, slots, ahead, beyond
+):
     """Writes the record of every link, as the way from leaf to root reads it.
 
     Args:
         c: constants.
         depth: of every link.
         probe: of every link.
+        crowd: constants of the groups, and their probes.
+        group_start: which of them hang on each link.
         joints: angles and rates.
+        groups: pressure and rate of all groups, updated.
         carried: velocity of every link's joint and direction as the last step left them; moved on by what follows
             from the joint rates alone.
         wind: air velocity and leaf reconfiguration at the probes.
@@ -135,6 +166,8 @@ def descend(c, depth, probe, joints, carried, wind, a, slots, ahead, beyond):  #
     """
     three, four, seven = _W * np.uintp(3), _W * np.uintp(4), _W * np.uintp(7)
     per_ahead = _F(1.0) / ahead
+    ground = load3(a, slots + four)
+    groups_on(crowd, group_start[0], group_start[1], groups, wind, a, slots, ground, ground)
     for i in range(len(depth)):
         link = np.uintp(i)
         above = slots + np.uintp(depth[link]) * SLOT
@@ -159,11 +192,13 @@ def descend(c, depth, probe, joints, carried, wind, a, slots, ahead, beyond):  #
                 pull[2] * c[link, MOMENT] + b_pull[2] * c[link, INERTIA] - force[2] * c[link, LEVER],
             ),
         )
+        on = groups_on(crowd, group_start[i + 1], group_start[i + 2], groups, wind, a, here, spin, v)
         force = (
-            pull[0] * c[link, MASS] + b_pull[0] * c[link, MOMENT] - force[0],
-            pull[1] * c[link, MASS] + b_pull[1] * c[link, MOMENT] - force[1],
-            pull[2] * c[link, MASS] + b_pull[2] * c[link, MOMENT] - force[2],
+            pull[0] * c[link, MASS] + b_pull[0] * c[link, MOMENT] - force[0] - on[0][0],
+            pull[1] * c[link, MASS] + b_pull[1] * c[link, MOMENT] - force[1] - on[0][1],
+            pull[2] * c[link, MASS] + b_pull[2] * c[link, MOMENT] - force[2] - on[0][2],
         )
+        moment = add_scaled(moment, on[1], _F(-1.0))
         record = link * RECORD
         for vector in (b, axis_1, axis_2, force, moment):
             store3(a, record, vector)

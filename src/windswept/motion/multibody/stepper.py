@@ -10,7 +10,7 @@ from windswept.motion.level import Level, finest_level
 from windswept.motion.model import Model
 from windswept.motion.multibody.advance import MOTION, advance
 from windswept.motion.multibody.ascend import SUM, ascend
-from windswept.motion.multibody.constants import forces_at, pack_multibody, warped_step
+from windswept.motion.multibody.constants import forces_at, pack_level, warped_step
 from windswept.motion.multibody.descend import RECORD, SLOT, descend
 from windswept.motion.springs import pack_wind
 from windswept.motion.state import CoupledState, State
@@ -21,7 +21,23 @@ _F = np.float32
 
 @njit(fastmath=FAST_MATH, parallel=True, cache=True)
 def _step_tiles(  # type: ignore[no-untyped-def]
-    c, depth, probe, source, joints, carried, wind, scratch, starts, step, ahead, first, last, interval
+    c,
+    depth,
+    probe,
+    source,
+    crowd,
+    group_start,
+    joints,
+    groups,
+    carried,
+    wind,
+    scratch,
+    starts,
+    step,
+    ahead,
+    first,
+    last,
+    interval,
 ):
     """Inner steps first..last of an interval over which the wind goes linearly from wind[t, 0] to wind[t, 1]."""
     slots, sums, motions = np.uintp(starts[0]), np.uintp(starts[1]), np.uintp(starts[2])
@@ -31,17 +47,36 @@ def _step_tiles(  # type: ignore[no-untyped-def]
         for taken in range(first, last):
             late = _F((taken + 0.5) / interval)
             now[:] = wind[tile, 0] + late * (wind[tile, 1] - wind[tile, 0])
-            descend(c, depth, probe, joints[tile], carried[tile], now, a, slots, ahead, step / ahead)
+            descend(
+                c,
+                depth,
+                probe,
+                crowd,
+                group_start,
+                joints[tile],
+                groups[tile],
+                carried[tile],
+                now,
+                a,
+                slots,
+                ahead,
+                step / ahead,
+            )
             ascend(c, depth, source, joints[tile], a, sums, ahead)
             advance(c, depth, joints[tile], carried[tile], a, motions, step, ahead)
 
 
 class MultibodyStepper:
-    """Steps states of one plant with all its links coupled; owns the scratch memory that the kernel works in."""
+    """Steps states of one plant with all links of a level coupled; owns the scratch memory that the kernel works in.
 
-    def __init__(self, model: Model) -> None:
-        self.level = finest_level(model)
-        self._constants = pack_multibody(model)
+    Args:
+        model: the plant's constants.
+        level: what of the plant is stepped; None for every link.
+    """
+
+    def __init__(self, model: Model, level: Level | None = None) -> None:
+        self.level = finest_level(model) if level is None else level
+        self._constants = pack_level(model, self.level)
         self._step, self._ahead = _F(warped_step(model)), _F(forces_at(model))
         self._source = sum_sources(self.level)
         self._scratch, self._starts = _scratch(self.level)
@@ -64,7 +99,10 @@ class MultibodyStepper:
             level.depth,
             level.probe,
             self._source,
+            (level.group_constants, level.group_probe),
+            level.group_start,
             state.joints.reshape(tiles, -1),
+            state.groups.reshape(tiles, -1),
             state.carried.reshape(tiles, -1),
             wind,
             self._scratch,
