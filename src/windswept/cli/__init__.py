@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import sys
 from typing import Any
 
@@ -56,7 +57,12 @@ def cli(context: click.Context) -> None:
 
 
 def main(arguments: list[str] | None = None) -> Any:
-    """Runs the command line; a person's mistake ends as one line on stderr and exit code 2."""
+    """Runs the command line; a person's mistake ends as one line on stderr and exit code 2.
+
+    Numba's own choice of threads, OpenMP, waits for milliseconds at the end of every kernel while another program
+    holds a core. The command line calls kernels from one thread only, which is all that the simpler layer asks for.
+    """
+    os.environ.setdefault("NUMBA_THREADING_LAYER", "workqueue")
     try:
         return cli.main(arguments, standalone_mode=False)
     except (WindsweptError, click.ClickException) as error:
