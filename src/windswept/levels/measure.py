@@ -25,7 +25,7 @@ LARGEST_IN_PIXELS = 3.0
 """How many times the stated error the largest may be."""
 OTHER_WINDS = 1.15
 """Stated error over that in the training wind, since no two winds are alike."""
-SHORT_SECONDS, FEW_TIPS = 4.0, 120
+SHORT_SECONDS, FEW_TIPS = 3.0, 120
 """A short measurement for plants of a scene: seconds of wind and stem tips."""
 
 
