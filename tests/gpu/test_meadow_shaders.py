@@ -147,22 +147,24 @@ def test_nothing_is_chosen_behind_the_eye(whole: Any) -> None:
 
 
 def test_the_area_drawn_stays_as_blades_are_left_out(device: Any, windy: Simulation) -> None:
-    """Half widths summed over the leaves on the ground, whichever are left out."""
-    areas = []
-    for rules in (BladeRules(1e-3), BladeRules(0.5), BladeRules(2.0)):
-        renderer = stage(windy, SIZE, blade_rules=rules)
-        view = View(np.array([0.0, -14.0, 1.0], np.float32), np.zeros(3, np.float32), 0.2)
+    """Half widths at the roots, summed over the leaves on the ground, whichever are left out."""
+    view = View(np.array([0.0, -14.0, 1.0], np.float32), np.zeros(3, np.float32), 0.2)
+    counts = []
+    for pixels in (1.5, 4.0):
+        renderer = stage(windy, SIZE, blade_rules=BladeRules(pixels))
         renderer.draw(frame_now(windy, view))
         posed, items = posed_joints(renderer), renderer.meadow._wanted.items
         rows: MeadowRows = renderer.meadow.rows
         leaf = np.bincount(rows.chunk_set[rows.chunk[rows.depth == 0]]).argmax()
+        run = rows.runs[leaf * LEVELS + 2]
+        whole = rows.borders[run["rows"][3]] * run["width"][1] * rows.blades["place"][:, 3]
+        whole = whole[rows.chunk_set[rows.chunk] == leaf].sum()
         mine = items[items[:, 2] // LEVELS == leaf]
-        areas.append((len(mine), float(posed["place"][mine[:, 1], 3].sum())))
-    counts = [count for count, _ in areas]
-    assert counts[0] > 1.5 * counts[2]
-    for count, area in areas[1:]:
+        drawn = posed["place"][mine[:, 1], 3]
+        counts.append(np.sum(drawn > 0.0))
         # Which are left out is chance: three standard errors of so many.
-        assert area == pytest.approx(areas[0][1], rel=3.0 / np.sqrt(count))
+        assert drawn.sum() == pytest.approx(whole, rel=3.0 / np.sqrt(counts[-1]))
+    assert counts[0] > 1.5 * counts[1]
 
 
 def test_the_same_frame_gives_the_same_picture_and_wind_another(whole: Any, windy: Simulation) -> None:

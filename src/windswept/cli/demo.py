@@ -37,6 +37,11 @@ def command(size: tuple[int, int], headless: bool) -> None:
     figures = render_scene(scene, video, size, still=(picture, PICTURE_TIME))
     click.echo(f"{video} and {picture}")
     click.echo(f"{figures['plants']} plants of {figures['kinds']} kinds with {figures['links']:,} links")
+    click.echo(f"{figures['tufts']:,} tufts of underbrush with {figures['blades']:,} blades")
+    if figures["clamped"]:
+        click.echo(
+            f"{figures['clamped']:,} forces and speeds were held back: no number, or too large to be meant"
+        )
     click.echo(f"{figures['stepped']:,} oscillators were stepped at the end of the shot:")
     for level, count in enumerate(figures["placements_by_level"]):
         if count:

@@ -138,7 +138,12 @@ def render_scene(
         else:
             simulating = film_video(simulation, output, shot, still)
     if isinstance(simulation, Simulation):
-        speed: dict[str, Any] = {"steps_per_second": round(simulation.step_count / max(simulating, 1e-9), 1)}
+        speed: dict[str, Any] = {
+            "tufts": scene.tuft_count,
+            "blades": 0 if simulation.meadow is None else simulation.meadow.blade_count,
+            "clamped": simulation.clamped_count,
+            "steps_per_second": round(simulation.step_count / max(simulating, 1e-9), 1),
+        }
     else:
         # The card works on while the CPU goes ahead: only its own clock knows.
         speed = {"stage_ms": {name: round(ms, 3) for name, ms in simulation.stage_milliseconds.items()}}

@@ -12,7 +12,7 @@ from windswept.forms.files import check_place
 
 
 @click.command("reproduce")
-@click.argument("paper", type=click.Choice(["beaudoin", "skjermo"]))
+@click.argument("paper", type=click.Choice(["beaudoin", "endo", "skjermo"]))
 @click.option(
     "--links",
     type=click.IntRange(1000, 80_000),
@@ -38,6 +38,10 @@ def command(paper: str, links: int, output: str | None, as_json: bool) -> None:
         from windswept.studies.beaudoin import beaudoin
 
         rows, table = beaudoin(links, folder=folder, say=say), _beaudoin_table
+    elif paper == "endo":
+        from windswept.studies.endo import endo
+
+        rows, table = endo(folder, say=say), _endo_table
     else:
         from windswept.studies.skjermo import skjermo
 
@@ -59,6 +63,19 @@ def _beaudoin_table(rows: list[Any]) -> None:
             f" {row['branches']:>6} {row['steps_per_second']:>9.0f} {row['speedup']:>7.1f}"
             f" {row['bound_m']:>8.3f} {row['p95_m']:>7.3f} {row['p95_pixels']:>4.2f} {row['rms_over_motion']:>5.1%}  |"
             f" {row['printed_p95_m']:>6.3f} {row['printed_p95_pixels']:>5.2f} {row['printed_rms_over_motion']:>5.1%}"
+        )
+
+
+def _endo_table(rows: list[Any]) -> None:
+    click.echo(
+        "field      tufts  flowers  leaves     blades  |  paper fps      ours     drawn   steps/s  ns/blade"
+    )
+    for row in rows:
+        paper = "" if row["paper_fps"] is None else "{:.0f} to {:.0f}".format(*row["paper_fps"])
+        click.echo(
+            f"{row['what']:<9} {row['tufts']:>6} {row['flowers']:>8} {row['leaves']:>7} {row['blades']:>10}  |"
+            f" {paper:>10} {row['frames_per_second']:>9.1f} {row['blades_drawn']:>9} {row['steps_per_second']:>9.0f}"
+            f" {row['ns_per_blade_step']:>9.1f}   {row['on']}"
         )
 
 

@@ -5,6 +5,7 @@ override LAST_NORM: f32 = 0.95276552;
 const LARGEST_LEAN = 0.99999;
 const STATE_ROWS = 7u;
 const WIDTH = 8u;
+const LEAST_LINE = 0.22;   // half width on the screen, pixels
 const FADE = 0.25;   // of the blades that are drawn, the last ones grow thin
 
 @group(1) @binding(0) var<storage, read> blades: array<BladeRow>;
@@ -128,6 +129,16 @@ fn widening(run: BladeRun, chance: f32, away: f32) -> f32 {
     return run.width.y * shown / mean_shown * (1.0 - smoothstep(0.7 * last, last, away));
 }
 
+// From the axis to the right border, at least as wide on the screen as a line must be to be drawn unbroken: a strip
+// seen at its edge is turned a little to the eye.
+fn border_of(axis: vec3f, side: vec3f, half_width: f32, run: BladeRun, place: vec3f) -> vec3f {
+    let ray = frame.eye.xyz - place;
+    let across = normalize(cross(axis, ray) + vec3f(1e-12, 0.0, 0.0));
+    let seen = half_width * dot(side, across);
+    let least = LEAST_LINE * length(ray) / meadow_pass.now.y * clamp(20.0 * half_width / run.width.x, 0.0, 1.0);
+    return half_width * side + select(-1.0, 1.0, seen >= 0.0) * max(least - abs(seen), 0.0) * across;
+}
+
 // A joint between two sections, lit. A stalk is drawn as a strip that turns to the eye.
 fn joint_between(
     before: Basis, after: Basis, place: vec3f, half_width: f32, run: BladeRun, look: BladeLook, along: f32
@@ -139,9 +150,12 @@ fn joint_between(
         facing = normalize(frame.eye.xyz - place);
         side = normalize(cross(before.axis + after.axis, facing));
     }
+    let border = border_of(before.axis + after.axis, side, half_width, run, place);
+    let reach = length(border);
+    side = border / max(reach, 1e-9);
     let lit = sqrt(finished(blade_light(run, look, facing, along, place), place).rgb);
     let colour = vec3u(round(1023.0 * clamp(lit, vec3f(0.0), vec3f(1.0))));
-    return PosedJoint(vec4f(place, half_width), vec4u(
+    return PosedJoint(vec4f(place, reach), vec4u(
         pack2x16snorm(side.xy),
         pack2x16snorm(vec2f(side.z, normal.x)),
         pack2x16snorm(normal.yz),

@@ -59,6 +59,8 @@ _THRESHOLD: Any = _F(REST_THRESHOLD)
 _NEVER = 1e9
 _CHUNK = 64
 """Tiles that one thread takes at a time."""
+ALONE = 8 * _CHUNK
+"""Up to so many tiles, some 60 microseconds, waiting for other threads costs more than they save."""
 
 
 def kind_numbers(kind: BladeKind) -> Floats:
@@ -183,15 +185,25 @@ def _lanes_out_of_bounds(in_bounds, lanes_used):  # type: ignore[no-untyped-def]
     return count
 
 
+@njit(fastmath=FAST_MATH, cache=True)
+def _chunk_in_field(chunk, k, constants, state, blades, field, grid, substeps, clamped):  # type: ignore[no-untyped-def]
+    for tile in range(chunk * _CHUNK, min((chunk + 1) * _CHUNK, len(state))):
+        c = constants[tile]
+        wind, push = sample(field, grid, load3(c, np.uintp(PLACE) * _W))
+        sound = _step_tile(k, c, state[tile], wind, push, substeps)
+        clamped[chunk] += _lanes_out_of_bounds(sound, min(WIDTH, blades - tile * WIDTH))
+
+
 @njit(fastmath=FAST_MATH, parallel=True, cache=True)
 def _step_in_field(k, constants, state, blades, field, grid, substeps, clamped):  # type: ignore[no-untyped-def]
-    tiles = len(state)
     for chunk in prange(len(clamped)):
-        for tile in range(chunk * _CHUNK, min((chunk + 1) * _CHUNK, tiles)):
-            c = constants[tile]
-            wind, push = sample(field, grid, load3(c, np.uintp(PLACE) * _W))
-            sound = _step_tile(k, c, state[tile], wind, push, substeps)
-            clamped[chunk] += _lanes_out_of_bounds(sound, min(WIDTH, blades - tile * WIDTH))
+        _chunk_in_field(chunk, k, constants, state, blades, field, grid, substeps, clamped)
+
+
+@njit(fastmath=FAST_MATH, cache=True)
+def _step_alone(k, constants, state, blades, field, grid, substeps, clamped):  # type: ignore[no-untyped-def]
+    for chunk in range(len(clamped)):
+        _chunk_in_field(chunk, k, constants, state, blades, field, grid, substeps, clamped)
 
 
 @njit(fastmath=FAST_MATH, parallel=True, cache=True)
@@ -214,7 +226,8 @@ def step_in_field(blades: Blades, state: BladeState, field: PackedField, substep
         substeps: number of steps, each ``blades.time_step`` long.
     """
     tiles, clamped = len(state.lanes), _counters(state)
-    _step_in_field(
+    step = _step_alone if tiles <= ALONE else _step_in_field
+    step(
         kind_numbers(blades.kind),
         blades.constants.reshape(tiles, -1),
         state.lanes.reshape(tiles, -1),
