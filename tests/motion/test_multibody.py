@@ -15,9 +15,10 @@ from windswept.motion import (
     finest_level,
     plant_frequencies,
     pose_links,
+    push,
     rest_state,
 )
-from windswept.motion.multibody import CoupledState, MultibodyStepper, coupled, coupled_rest
+from windswept.motion.multibody import CoupledState, MultibodyStepper, constants, coupled, coupled_rest
 from windswept.motion.multibody.plain import energy, kinematics, mass_matrix, step_multibody_plain
 from windswept.motion.sweeps import joint_torque
 from windswept.plants.plant import Material
@@ -140,6 +141,44 @@ def test_energy_never_grows_at_a_large_step(rate: float) -> None:
         energies = swung(model, pulled(model, angle), 60.0)
         assert np.diff(energies).max() < 1e-4
         assert np.isfinite(energies).all()
+
+
+@pytest.mark.parametrize("rate", [120.0, 30.0, 5.0])
+def test_energy_is_kept_exactly_but_for_rounding(rate: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    # In double precision and without the settling of what links carry.
+    monkeypatch.setattr(constants, "SETTLING", 0.0)
+    model = build_model(build_plant(straight(6.0, 8, 0.05, 0.02), FREE), time_step=1.0 / rate)
+    angles = pulled(model, 0.3).angles(0).astype(float)
+    rates, carried = np.zeros_like(angles), np.zeros((model.link_count, 2, 3))
+    calm, energies = np.zeros((len(model.probe_position), 3)), []
+    for _ in range(200):
+        energies.append(energy(model, angles, carried))
+        angles, rates, carried = step_multibody_plain(model, angles, rates, carried, calm)
+    assert np.abs(carried).max() > 0.5
+    assert np.abs(np.array(energies) / energies[0] - 1.0).max() < 1e-10
+
+
+def test_a_push_moves_every_joint_as_the_mass_matrix_says() -> None:
+    rng = np.random.default_rng(0)
+    model = build_model(random_tree(1, material=LIMP))
+    free = rest_state(finest_level(model), 10)
+    for placement in range(10):
+        free.angles(placement)[:] = rng.normal(0.0, 0.1, (model.link_count, 2))
+        free.velocities(placement)[:] = rng.normal(0.0, 0.5, (model.link_count, 2))
+    state = coupled(model, free)
+    before, chosen, link = state.joints.copy(), 9, model.link_count - 3
+    angles, rates = state.angles(chosen).astype(float), state.velocities(chosen).astype(float)
+    impulse = np.array([0.3, -0.2, 0.1])
+    push(model, state, chosen, link, impulse, along=0.4)
+    moving = kinematics(model, angles, rates)
+    struck = moving.jacobian[link, 0] + 0.4 * model.skeleton.length[link] * moving.jacobian[link, 1]
+    gain = np.linalg.solve(mass_matrix(model, moving), impulse @ struck).reshape(-1, 2)
+    assert np.abs(gain).max() > 1.0
+    assert np.abs(state.velocities(chosen) - rates - gain).max() < 1e-4 * np.abs(gain).max()
+    carried = state.carried[1, :, :, 1].reshape(-1, 2, 3)
+    assert np.abs(carried - kinematics(model, angles, rates + gain).velocity).max() < 1e-3
+    assert np.array_equal(state.angles(chosen), before[1, :, ::2, 1])
+    assert np.array_equal(state.joints[0], before[0])
 
 
 def test_no_stiffness_limits_the_step() -> None:

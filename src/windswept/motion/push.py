@@ -6,15 +6,18 @@ import numpy as np
 
 from windswept.motion.level import finest_level
 from windswept.motion.model import Model
+from windswept.motion.multibody.push_coupled import push_coupled
 from windswept.motion.pose_links import pose_links
 from windswept.motion.rods import Doubles
-from windswept.motion.state import State
+from windswept.motion.state import CoupledState, State
 
 
 def push(
     model: Model, state: State, placement: int, link: int, impulse: Doubles, along: float = 1.0
 ) -> State:
     """Adds an impulse to one link of one placement at level 0; all joints between it and the root take their part.
+
+    Coupled links take it as their masses ask for, each joint of the plant; see push_coupled.py.
 
     Args:
         model: the plant's constants.
@@ -25,6 +28,8 @@ def push(
         along: where on the link, 0 at its base, 1 at its tip.
 
     """
+    if isinstance(state, CoupledState):
+        return push_coupled(model, state, placement, link, impulse, along)
     pose = pose_links(model, finest_level(model), state)
     position, rotation = pose.position[placement], pose.rotation[placement].astype(np.float64)
     skeleton = model.skeleton
