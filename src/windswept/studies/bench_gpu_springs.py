@@ -95,7 +95,7 @@ def card_seconds_per_step(card: GpuSimulation) -> float:
 
     wall = median_seconds(advance, REPEATS)
     by_clock = float(np.median([advance() for _ in range(REPEATS)]))
-    return (1e-3 * by_clock or wall) / WIND_INTERVAL
+    return 1e-3 * by_clock / card.steps_at_once or wall / WIND_INTERVAL
 
 
 def _forest() -> dict[str, float]:

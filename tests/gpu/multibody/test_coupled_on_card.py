@@ -17,6 +17,7 @@ from windswept.motion.sweeps import joint_torque
 from windswept.plants.plant import Material, Plant
 from windswept.scene.probes import place_probes, wind_at_probes
 from windswept.scene.simulation import Simulation
+from windswept.studies.bench_plants import plant_with_links
 
 LIVELY = Material(damping_ratio=0.02, youngs_modulus=2e8)
 FREE = Material(damping_ratio=0.0, wood_drag=0.0, leaf_drag=0.0)
@@ -76,6 +77,15 @@ def test_more_placements_than_a_block_holds(trees):
     simulation, card = on_both(trees, [130, 1])
     assert gaps(simulation.advance(1.0), card.advance(1.0)).max() < 5e-6
     np.testing.assert_allclose(card.states[0].carried, simulation.kinds[0].sets[0].state.carried, atol=5e-5)
+
+
+def test_all_links_of_a_large_plant_move():
+    # Three walks of it in one dispatch would be more turns than a software driver takes.
+    simulation, card = on_both([plant_with_links(25_000)], [1])
+    assert gaps(simulation.advance(0.05), card.advance(0.05)).max() < 5e-6
+    state = simulation.kinds[0].sets[0].state
+    np.testing.assert_allclose(card.states[0].velocities(0), state.velocities(0), atol=1e-3)
+    assert np.abs(state.velocities(0)[-100:]).max() > 0.1
 
 
 def test_rotations_agree_between_two_steps(trees):

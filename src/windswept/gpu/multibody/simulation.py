@@ -33,10 +33,14 @@ class CoupledSimulation(GpuSimulation):
         GraphicsError: no adapter, or one with too little memory.
     """
 
+    turns_per_link = 1
+
     def __init__(self, scene: Scene, kinds: list[GrownKind], room: int | None = None) -> None:
         limit = shared_device().limits["max-storage-buffer-binding-size"]
         self._room = limit if room is None else min(room, limit)
         super().__init__(scene, [replace(kind, ladder=None) for kind in kinds], room=self._room)
+        # Every walk of a step is a dispatch of its own.
+        self.steps_at_once = 1
 
     def put(self, states: list[CoupledState]) -> None:
         """Lets every placement go on from a state of `multibody`, kind by kind."""

@@ -8,4 +8,4 @@ from windswept.gpu.springs.walk import Walk
 class CoupledWalk(Walk):
     """Records what the card is to do; made as a ``Walk`` over resources that `multibody` has been added to."""
 
-    stepped_by = "multibody"
+    steppers = (("multibody", "descend_block"), ("multibody", "ascend_block"), ("multibody", "advance_block"))

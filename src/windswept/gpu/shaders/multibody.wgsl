@@ -3,7 +3,8 @@
 // _advance + multibody.
 //
 // Links stand depth first, so most follow their parent: what goes from link to link stays in registers along a stem, and
-// passes through a slot of its depth at forks alone. All lanes are at the same link, so no branch parts them.
+// passes through a slot of its depth at forks alone. All lanes are at the same link, so no branch parts them. Every walk
+// is a dispatch of its own: a software driver leaves the loops of a shader after 65,535 turns in all.
 
 @group(0) @binding(0) var<uniform> rungs: array<Rung, 800>;
 @group(0) @binding(1) var<uniform> coupled: array<Coupled, 64>;   // by kind: its finest rung
@@ -16,31 +17,52 @@
 @group(0) @binding(8) var<storage, read_write> slots: array<vec4f>;
 @group(0) @binding(9) var<uniform> moment: Moment;
 
+fn column_of_block(block: vec4u, lane: u32) -> Column {
+    let rung = rungs[block.x];
+    let own = coupled[rung.links.w];
+    let stride = stride_of(rung);
+    let links = rung.links.y;
+    let before = block.y * links * stride;   // links of the blocks before this one
+    return Column(
+        own.pace,
+        links,
+        own.rows.x,
+        rung.room.x + before + lane,
+        own.rows.y + CARRIED * before + lane,
+        own.rows.z + RECORD * before + lane,
+        own.rows.w + SLOT * block.y * (rung.links.z + 1u) * stride + lane,
+        rung.room.z + block.y * 2u * rung.probes.y * stride + lane,
+        stride,
+    );
+}
+
 @compute @workgroup_size(64)
-fn step_block(
+fn descend_block(
+    @builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) spread: vec3u, @builtin(local_invocation_index) lane: u32
+) {
+    let late = (f32(moment.steps.y) + 0.5) / f32(moment.steps.w);
+    for (var b = group.x; b < blocks[0].x; b += spread.x) {
+        let block = blocks[1u + b];
+        if lane < block.z { descend(column_of_block(block, lane), late); }
+    }
+}
+
+@compute @workgroup_size(64)
+fn ascend_block(
     @builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) spread: vec3u, @builtin(local_invocation_index) lane: u32
 ) {
     for (var b = group.x; b < blocks[0].x; b += spread.x) {
         let block = blocks[1u + b];
-        if lane >= block.z { continue; }
-        let rung = rungs[block.x];
-        let own = coupled[rung.links.w];
-        let stride = stride_of(rung);
-        let links = rung.links.y;
-        let before = block.y * links * stride;   // links of the blocks before this one
-        let column = Column(
-            own.rows.x,
-            rung.room.x + before + lane,
-            own.rows.y + CARRIED * before + lane,
-            own.rows.z + RECORD * before + lane,
-            own.rows.w + SLOT * block.y * (rung.links.z + 1u) * stride + lane,
-            rung.room.z + block.y * 2u * rung.probes.y * stride + lane,
-            stride,
-        );
-        for (var s = moment.steps.y; s < moment.steps.z; s++) {
-            descend(links, column, own.pace, (f32(s) + 0.5) / f32(moment.steps.w));
-            ascend(links, column, own.pace.y);
-            advance(links, column, own.pace);
-        }
+        if lane < block.z { ascend(column_of_block(block, lane)); }
+    }
+}
+
+@compute @workgroup_size(64)
+fn advance_block(
+    @builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) spread: vec3u, @builtin(local_invocation_index) lane: u32
+) {
+    for (var b = group.x; b < blocks[0].x; b += spread.x) {
+        let block = blocks[1u + b];
+        if lane < block.z { advance(column_of_block(block, lane)); }
     }
 }

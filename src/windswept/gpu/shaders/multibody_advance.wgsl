@@ -1,9 +1,10 @@
 // Root to leaf once more: every joint's acceleration and step, as motion/multibody/advance.py.
 
-fn advance(links: u32, column: Column, pace: vec4f) {
+fn advance(column: Column) {
+    let pace = column.pace;
     let stride = column.stride;
     var here = Moving(vec4f(0.0, 0.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0));
-    for (var i = 0u; i < links; i++) {
+    for (var i = 0u; i < column.links; i++) {
         let rod = rods[column.rods + i];
         let record = record_of(column, i);
         let above = moving_above(rod, here, column);

@@ -61,11 +61,12 @@ fn give_way(beyond: Beyond, joint: Joint, springs: vec4f, record: u32, stride: u
     );
 }
 
-fn ascend(links: u32, column: Column, ahead: f32) {
+fn ascend(column: Column) {
+    let ahead = column.pace.y;
     let stride = column.stride;
     var rotation = vec4f(0.0);
     var beyond = Beyond();
-    for (var k = links; k > 0u; k--) {
+    for (var k = column.links; k > 0u; k--) {
         let i = k - 1u;
         let rod = rods[column.rods + i];
         let record = record_of(column, i);

@@ -19,10 +19,11 @@ fn weigh_and_drag(rod: Rod, b: vec3f, velocity: vec3f, air: vec4f, pull: vec3f, 
     records[record + 2u * stride] = vec4f(torque, wood);
 }
 
-fn descend(links: u32, column: Column, pace: vec4f, late: f32) {
+fn descend(column: Column, late: f32) {
+    let pace = column.pace;
     let stride = column.stride;
     var here = Moving(vec4f(0.0, 0.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0));
-    for (var i = 0u; i < links; i++) {
+    for (var i = 0u; i < column.links; i++) {
         let rod = rods[column.rods + i];
         let record = record_of(column, i);
         let above = moving_above(rod, here, column);

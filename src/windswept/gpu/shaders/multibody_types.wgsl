@@ -28,8 +28,10 @@ const SLOT = 7u;     // rows of a depth within a walk
 const REST_THRESHOLD = 1e-9;
 const TINY = 1e-30;
 
-// Where a lane's numbers lie, and how far apart.
+// What a lane walks over: its links, where its numbers lie, and how far apart.
 struct Column {
+    pace: vec4f,
+    links: u32,
     rods: u32,
     state: u32,
     carried: u32,

@@ -18,6 +18,7 @@ from windswept.gpu.springs.card_state import CardState
 from windswept.gpu.springs.kinds import GrownKind
 from windswept.gpu.springs.rung_arrays import rung_arrays
 from windswept.gpu.springs.seats import first_seats
+from windswept.gpu.springs.turns import steps_in_turns
 from windswept.gpu.springs.walk import Walk
 from windswept.levels import Eye, outside_view
 from windswept.motion import TIME_STEP
@@ -46,6 +47,9 @@ class GpuSimulation:
         GraphicsError: no adapter, or one with too little memory.
     """
 
+    turns_per_link = 4
+    """Turns of a shader's loops for every link and step, see ``turns.py``: its own, its groups', its ends' twice."""
+
     def __init__(
         self,
         scene: Scene,
@@ -68,6 +72,8 @@ class GpuSimulation:
         self._device = shared_device()
         limit = self._device.limits["max-storage-buffer-binding-size"]
         self._arrays = rung_arrays(kinds, limit if room is None else min(room, limit))
+        self.steps_at_once = steps_in_turns(self._device, self._arrays.rungs, self.turns_per_link)
+        """Inner steps that one submission takes, at most."""
         seats = first_seats(kinds, self._arrays, self._eye_now())
         with card_errors("the plants' motion"):
             self.card = CardState(self._device, self._arrays, seats, scene.terrain.heights)
@@ -88,7 +94,7 @@ class GpuSimulation:
         with card_errors("stepping plants"):
             while self.step_count < due:
                 taken = self.step_count % WIND_INTERVAL
-                count = min(due - self.step_count, WIND_INTERVAL - taken)
+                count = min(due - self.step_count, WIND_INTERVAL - taken, self.steps_at_once)
                 self.card.write_moment(self._moment(taken, taken + count))
                 self._record(
                     *(self._begin_interval() if taken == 0 and self.step_count else ()), self._walk.step

@@ -23,8 +23,8 @@ class Walk:
         placements: of all kinds.
     """
 
-    stepped_by = "springs"
-    """Shader set that steps a block."""
+    steppers: tuple[tuple[str, str], ...] = (("springs", "step_block"),)
+    """Shader sets and entry points that step a block, one after the other."""
 
     def __init__(self, device: Any, card: CardState, rungs: int, placements: int) -> None:
         self._card, self._rungs = card, rungs
@@ -46,7 +46,7 @@ class Walk:
         self._fit_groups = kernel("fit_groups", "fit_groups")
         self._sample = kernel("wind", "sample")
         self._crown = kernel("crown", "crown_speed")
-        self._step = kernel(self.stepped_by, "step_block")
+        self._steppers = [kernel(*stepper) for stepper in self.steppers]
         self._pose = kernel("pose_links", "pose_block")
 
     def rebind_wind(self) -> None:
@@ -87,7 +87,8 @@ class Walk:
     def step(self, encoder: Any) -> None:
         """Takes the inner steps that the moment says are due."""
         compute_pass = encoder.begin_compute_pass(**self.times.around("simulate"))
-        self._step.record_planned(compute_pass, self._card.resources["dispatches"], STEP)
+        for stepper in self._steppers:
+            stepper.record_planned(compute_pass, self._card.resources["dispatches"], STEP)
         compute_pass.end()
 
     def pose(self, encoder: Any) -> None:
