@@ -18,6 +18,8 @@ SHADER_SETS = {
     "grass": ("types", "light", "meadow", "grass"),
     "blades_pose": ("types", "light", "meadow", "rotation", "blades_types", "blades_light", "blades_pose"),
     "blades": ("types", "blades_types", "blades"),
+    "lean": ("lean_types", "lean"),
+    "balls": ("types", "light", "rotation", "balls"),
     "sky": ("types", "light", "sky"),
     "wind": ("motion", "air", "wind"),
     "springs": ("motion", "rotation", "springs"),
