@@ -8,7 +8,15 @@ import numpy as np
 import pytest
 
 from handmade import random_tree
-from windswept.levels import Eye, build_ladder, carry_over, joint_motion_of, measure, simplify
+from windswept.levels import (
+    Eye,
+    build_ladder,
+    carry_over,
+    joint_motion_of,
+    measure,
+    measured_ladder,
+    simplify,
+)
 from windswept.levels.measure import with_measured_errors
 from windswept.levels.training_wind import PLACEMENTS, training_air
 from windswept.motion import Model, Stepper, build_model, finest_level, pose_links, rest_state
@@ -60,12 +68,12 @@ def tips(model: Model, simulation: Simulation) -> np.ndarray:
 def there_and_back(
     hazels: tuple[Scene, list[Plant]], levels: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Tips (frames, P, n, 3), pixel sizes (frames, P), levels (frames, P), flying away and coming back."""
+    """Tips (frames, P, n, 3), pixel sizes and whether coupled (frames, P), flying away and coming back."""
     scene, plants = hazels
     simulation = Simulation(scene, plants, levels=levels, multibody=True)
     kind = simulation.kinds[0]
     assert kind.sets[0].level.coupled
-    track, pixels, at = [], [], []
+    track, pixels, joined = [], [], []
     for frame in range(300):
         away = 6.0 + 17.0 * (1.0 - np.cos(2.0 * np.pi * frame / 300.0))
         simulation.eye = Eye(np.array([0.0, -away, 3.0], np.float32), FOV, HEIGHT)
@@ -73,20 +81,20 @@ def there_and_back(
         track.append(tips(kind.model, simulation))
         distance = np.linalg.norm(kind.placements.position - simulation.eye.position, axis=1)
         pixels.append(simulation.eye.metres(distance))
-        at.append(kind.at.copy())
-    return np.array(track), np.array(pixels), np.array(at)
+        joined.append([kind.sets[rung].level.coupled for rung in kind.at])
+    return np.array(track), np.array(pixels), np.array(joined)
 
 
 def test_no_leaf_jumps_between_multibody_and_springs(hazels: tuple[Scene, list[Plant]]) -> None:
     # PHYSICS D2.2: the second difference of every tip less the same under `multibody` throughout, in pixels.
-    with_levels, pixels, at = there_and_back(hazels, True)
+    with_levels, pixels, joined = there_and_back(hazels, True)
     without, _, _ = there_and_back(hazels, False)
-    before, after = at[:-1], at[1:]
-    assert ((before == 0) & (after == 1)).any(axis=0).all()
-    assert ((before == 1) & (after == 0)).any(axis=0).all()
+    before, after = joined[:-1], joined[1:]
+    assert (before & ~after).any(axis=0).all()
+    assert (~before & after).any(axis=0).all()
     assert not np.array_equal(with_levels[-60], without[-60])
     jump = np.linalg.norm(np.diff(with_levels - without, n=2, axis=0), axis=-1) / pixels[1:-1, :, None]
-    changing = np.zeros(len(at), bool)
+    changing = np.zeros(len(joined), bool)
     for frame in np.flatnonzero((before != after).any(axis=1)):
         changing[frame : frame + 35] = True
     seen = jump[changing[1:-1]]
@@ -133,12 +141,11 @@ def test_a_change_to_springs_and_back_keeps_the_motion() -> None:
     state = swayed(model, 60)
     angles, velocities = joint_motion_of(model, ladder.levels[0], state, 0)
     assert np.array_equal(angles, state.angles(0))
-    joints, _ = carry_over(hierarchy, angles, velocities, ladder.levels[1])
-    there = rest_state(ladder.levels[1], 1)
+    springs = next(level for level in ladder.levels if not level.coupled)
+    joints, _ = carry_over(hierarchy, angles, velocities, springs)
+    there = rest_state(springs, 1)
     there.joints[0, :, :, 0] = joints
-    back, _, carried = carry_over(
-        hierarchy, *joint_motion_of(model, ladder.levels[1], there, 0), ladder.levels[0]
-    )
+    back, _, carried = carry_over(hierarchy, *joint_motion_of(model, springs, there, 0), ladder.levels[0])
     assert np.array_equal(back, state.joints[0, :, :, 0])
     assert np.array_equal(carried, coupled(model, state).carried[0, :, :, 0])
     # What links carry and how their joints move differ by the part of a step's motion that joints forget.
@@ -149,9 +156,9 @@ def test_a_change_to_springs_and_back_keeps_the_motion() -> None:
 def test_the_error_of_springs_is_what_tips_show() -> None:
     model = build_model(random_tree(4, material=Material(youngs_modulus=3e8)))
     ladder = build_ladder(simplify(model), multibody=True)
-    plain = build_ladder(simplify(model))
-    assert [level.coupled for level in ladder.levels] == [True] + [False] * len(plain.levels)
-    assert ladder.tolerance[:2].tolist() == [0.0, 0.0]
+    springs = next(k for k, one in enumerate(ladder.levels) if not one.coupled)
+    assert ladder.levels[springs].group_count == 0
+    assert ladder.tolerance[0] == ladder.tolerance[springs] == 0.0
     measured = measure(ladder, 4.0)
     stated = with_measured_errors(ladder, measured)
     level, air = finest_level(model), training_air()
@@ -172,11 +179,37 @@ def test_the_error_of_springs_is_what_tips_show() -> None:
         if sample % 3 == 2:
             apart.append(np.linalg.norm(ends[1] - ends[0], axis=-1))
     assert np.percentile(apart, 95) > 1e-3
-    assert measured.p95[1] == pytest.approx(np.percentile(apart, 95), rel=1e-3)
-    assert measured.largest[1] == pytest.approx(np.max(apart), rel=1e-3)
+    assert measured.p95[springs] == pytest.approx(np.percentile(apart, 95), rel=1e-3)
+    assert measured.largest[springs] == pytest.approx(np.max(apart), rel=1e-3)
     assert stated.error[0] == 0.0
-    assert stated.error[1] >= measured.p95[1]
-    assert 3.0 * stated.error[1] >= measured.largest[1]
+    assert stated.error[springs] >= measured.p95[springs]
+    assert 3.0 * stated.error[springs] >= measured.largest[springs]
+
+
+def test_a_scenes_ladder_keeps_no_level_that_a_cheaper_one_is_as_near_as() -> None:
+    model = build_model(random_tree(4, material=Material(youngs_modulus=3e8)))
+    ladder = build_ladder(simplify(model), multibody=True)
+    short = measured_ladder(ladder)
+    assert short.levels[0] is ladder.levels[0]
+    assert short.levels[-1] is ladder.levels[-1]
+    assert len(short.levels) == len(short.error) == len(short.tolerance) < len(ladder.levels)
+    assert (np.diff(short.error) > 0.0).all()
+    order = [id(level) for level in ladder.levels]
+    assert (np.diff([order.index(id(level)) for level in short.levels]) > 0).all()
+
+
+def test_a_coupled_level_with_groups_takes_over_the_motion() -> None:
+    model = build_model(random_tree(2))
+    hierarchy = simplify(model)
+    ladder = build_ladder(hierarchy, multibody=True)
+    level = ladder.levels[ladder.merged(coupled=True)[0]]
+    state = swayed(model, 60)
+    angles, velocities = state.angles(0), state.velocities(0)
+    joints, groups, carried = carry_over(hierarchy, angles, velocities, level)
+    assert np.array_equal(joints, state.joints[0, level.link, :, 0])
+    assert np.array_equal(carried, coupled(model, state).carried[0, level.link, :, 0])
+    assert groups.shape == (level.group_count, 6)
+    assert groups.any()
 
 
 def test_plants_near_the_camera_are_coupled_and_all_are_without_levels(

@@ -121,7 +121,8 @@ def _print_table(report: dict[str, Any]) -> None:
             f" {row['ns_per_step']:>10.0f}"
         )
     if report["levels"][0]["motion"] == "multibody":
-        click.echo("level 0: multibody, all links coupled; the others: springs")
+        coupled = [str(row["level"]) for row in report["levels"] if row["motion"] == "multibody"]
+        click.echo(f"multibody: {', '.join(coupled)}; the others: springs")
     share = report["bytes_levels"] / report["bytes_plant"]
     click.echo(
         f"built in {report['build_seconds']:.3f} s; {share:.0%} of the memory of the plant and its level 0"

@@ -12,6 +12,7 @@ from windswept.levels.mismatch import LOG_HIGH, mismatch_table
 from windswept.motion import Level, finest_level
 from windswept.motion.level import GROUP_STEP
 from windswept.motion.rods import Doubles
+from windswept.plants.plant import Ints
 
 STEP = 0.4
 """Each level has at most this many times the oscillators of the one before."""
@@ -19,14 +20,18 @@ TYPICAL_TO_95 = 2.0
 """95th percentile over standard deviation of the mismatch."""
 DECOUPLED_SHARE = 0.02
 """Reckoned error of `springs` against `multibody`, as a share of a swaying plant's whole motion."""
+COUPLED_RUNGS = 3
+"""Finest cuts of the hierarchy that are also rungs of `multibody`; beyond them merging is what errs."""
+COUPLED_COST = 2.75
+"""Time of a coupled link over that of a link of `springs`, as measured."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ladder:
     """Levels 0 (all links) to K - 1 (still), each coarser than the one before.
 
-    Errors are against level 0, which is `springs`, or `multibody` where the ladder was built with it; then level 1
-    is `springs` with every link.
+    Errors are against level 0, which is `springs`, or `multibody` where the ladder was built with it; then coupled
+    levels stand among those of `springs` in the order of what they cost.
     """
 
     hierarchy: Hierarchy
@@ -39,10 +44,10 @@ class Ladder:
     bound: Doubles | None = None
     """(K,) no tip is farther than this from where level 0 has it, in wind up to the stated speed, m; or None."""
 
-    @property
-    def first_merged(self) -> int:
-        """First level in which links are merged."""
-        return 2 if self.levels[0].coupled else 1
+    def merged(self, coupled: bool) -> Ints:
+        """(n,) levels in which some links are merged, `bend` and still left out, that are coupled or are not."""
+        body = self.levels[:-2]
+        return np.array([k for k, x in enumerate(body) if x.group_count and x.coupled == coupled], np.int32)
 
     @property
     def oscillators(self) -> list[int]:
@@ -55,7 +60,7 @@ def build_ladder(hierarchy: Hierarchy, multibody: bool = False) -> Ladder:
 
     Args:
         hierarchy: of the plant.
-        multibody: whether `multibody` is its first rung, that all errors are against.
+        multibody: whether `multibody` is its first rung, that all errors are against, with others after it.
     """
     levels, cuts = [finest_level(hierarchy.model)], [0.0]
     for tolerance in _tolerances(hierarchy):
@@ -108,16 +113,28 @@ def estimated_error(hierarchy: Hierarchy, level: Level, group_frequency: Doubles
 
 
 def _under_multibody(ladder: Ladder) -> Ladder:
-    """The ladder with `multibody` first: what `springs` loses adds to what merging does as errors of unlike origin do,
-    by their squares.
+    """The ladder with coupled levels among those of `springs`, the dearest first.
+
+    What `springs` loses adds to what merging does as errors of unlike origin do, by their squares.
     """
-    decoupled = DECOUPLED_SHARE * ladder.error[-1]
+    count = min(COUPLED_RUNGS, len(ladder.levels) - 2)
+    coupled = [replace(level, coupled=True) for level in ladder.levels[:count] if level.link_count]
+    levels = (*coupled, *ladder.levels)
+    error = np.hypot(ladder.error, DECOUPLED_SHARE * ladder.error[-1])
+    error[-1] = ladder.error[-1]
+    order = np.argsort([-_cost(level) for level in levels[:-2]], kind="stable").tolist()
+    order += [len(levels) - 2, len(levels) - 1]
     return replace(
         ladder,
-        levels=(replace(ladder.levels[0], coupled=True), *ladder.levels),
-        error=np.array([0.0, *np.hypot(ladder.error[:-1], decoupled), ladder.error[-1]]),
-        tolerance=np.array([0.0, *ladder.tolerance]),
+        levels=tuple(levels[k] for k in order),
+        error=np.concatenate([ladder.error[: len(coupled)], error])[order],
+        tolerance=np.concatenate([ladder.tolerance[: len(coupled)], ladder.tolerance])[order],
     )
+
+
+def _cost(level: Level) -> float:
+    """What a level costs, in links of `springs`."""
+    return (COUPLED_COST if level.coupled else 1.0) * level.link_count + level.group_count
 
 
 def _tolerances(hierarchy: Hierarchy) -> Doubles:

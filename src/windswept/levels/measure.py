@@ -102,13 +102,32 @@ def with_measured_errors(ladder: Ladder, measured: Measured, bound: Doubles | No
         measured: its errors in the training wind.
         bound: (K,) its largest errors in maximal wind, where they were sought.
     """
-    stated = OTHER_WINDS * np.maximum(measured.p95, measured.largest / LARGEST_IN_PIXELS)
-    return replace(ladder, error=np.maximum.accumulate(stated), bound=bound)
+    return replace(ladder, error=np.maximum.accumulate(stated_errors(measured)), bound=bound)
+
+
+def stated_errors(measured: Measured) -> Doubles:
+    """(K,) what is stated of levels whose errors were measured, m."""
+    return OTHER_WINDS * np.maximum(measured.p95, measured.largest / LARGEST_IN_PIXELS)
 
 
 def measured_ladder(ladder: Ladder) -> Ladder:
-    """The ladder with errors of a short measurement, for plants of a scene."""
-    return with_measured_errors(ladder, measure(ladder, SHORT_SECONDS, most_tips=FEW_TIPS))
+    """The ladder with errors of a short measurement, for plants of a scene.
+
+    Of a ladder with `multibody` only those levels are left that no cheaper level is as near to the truth as.
+    """
+    measured = measure(ladder, SHORT_SECONDS, most_tips=FEW_TIPS)
+    if not ladder.levels[0].coupled:
+        return with_measured_errors(ladder, measured)
+    stated = stated_errors(measured)
+    cheaper = np.minimum.accumulate(np.append(stated, np.inf)[::-1])[::-1][1:]
+    kept = np.flatnonzero(stated < cheaper)
+    return replace(
+        ladder,
+        levels=tuple(ladder.levels[k] for k in kept),
+        error=stated[kept],
+        tolerance=ladder.tolerance[kept],
+        bound=None,
+    )
 
 
 def follow(

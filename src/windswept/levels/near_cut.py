@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numba import njit
@@ -43,7 +43,7 @@ def node_balls(hierarchy: Hierarchy) -> NodeBalls:
     return NodeBalls(0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1))
 
 
-def near_cut(ladder: Ladder, balls: NodeBalls, eye: Eye, position: Floats) -> Level:
+def near_cut(ladder: Ladder, balls: NodeBalls, eye: Eye, position: Floats, coupled: bool = False) -> Level:
     """The coarsest level whose error is nowhere seen, branch by branch.
 
     Args:
@@ -51,14 +51,18 @@ def near_cut(ladder: Ladder, balls: NodeBalls, eye: Eye, position: Floats) -> Le
         balls: of its nodes.
         eye: who looks.
         position: (3,) of the eye in the plant's frame, m.
+        coupled: whether by `multibody`.
     """
     away = np.linalg.norm(balls.centre - position, axis=1) - balls.radius
-    return cut_level(ladder.hierarchy, node_tolerance(ladder, eye.metres(np.maximum(away, NEAREST))))
+    tolerance = node_tolerance(ladder, eye.metres(np.maximum(away, NEAREST)), coupled)
+    return replace(cut_level(ladder.hierarchy, tolerance), coupled=coupled)
 
 
-def node_tolerance(ladder: Ladder, metres: Doubles) -> Doubles:
+def node_tolerance(ladder: Ladder, metres: Doubles, coupled: bool = False) -> Doubles:
     """(K,) reckoned error at which a node may be merged so that its error comes out below so many metres."""
-    cuts = slice(ladder.first_merged, len(ladder.levels) - 2)
+    cuts = ladder.merged(coupled)
+    if len(cuts) == 0:
+        return np.full(len(metres), -1.0)
     error, tolerance = np.log(ladder.error[cuts] + 1e-30), np.log(ladder.tolerance[cuts] + 1e-30)
     between = np.exp(np.interp(np.log(metres), error, tolerance))
     return np.where(metres < np.exp(error[0]), -1.0, between)

@@ -136,8 +136,6 @@ class MovingKind:
         alone = np.bincount(given, minlength=len(self.sets)) == 1
         own = np.zeros(len(away), bool)
         own[list(self.near)] = True
-        # A cut of its own is stepped by `springs`, whose error would be seen where `multibody` is asked for.
-        alone &= ~np.array([s.level.coupled for s in self.sets])
         near = alone[given] & (away < NEAR * self.radius * np.where(own, 1.0 + eye.dead_band, 1.0))
         for placement in np.flatnonzero((given != self.at) | own | near).tolist():
             if placement not in self.blends:
@@ -179,7 +177,7 @@ class MovingKind:
         seen_from = turn_about_z(towards, -self.placements.yaw[placement : placement + 1])[0, 0]
         own = LevelSet(
             self.model,
-            near_cut(self.ladder, self._balls, eye, seen_from),
+            near_cut(self.ladder, self._balls, eye, seen_from, self.sets[rung].level.coupled),
             self.placements,
             self._terrain,
             np.zeros(0, np.int32),

@@ -31,9 +31,8 @@ def plant_bytes(plant: Plant, finest: Level) -> int:
 
 def levels_bytes(ladder: Ladder) -> int:
     """Memory that the levels beyond level 0 add: their own arrays and the static shapes that all share."""
-    return ladder.hierarchy.shapes.nbytes + sum(
-        _bytes_of(level) for level in ladder.levels[ladder.first_merged :]
-    )
+    own = [level for level in ladder.levels if level.group_count and not level.coupled]
+    return ladder.hierarchy.shapes.nbytes + sum(_bytes_of(level) for level in own)
 
 
 def _bytes_of(one: Plant | Level) -> int:
