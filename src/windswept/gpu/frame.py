@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -87,6 +87,8 @@ class Frame:
     """Mean horizontal wind, m/s: sways grass and drifts clouds."""
     motion: CardMotion | None = None
     """Poses of all plants on the card; None where each kind's ``link`` is uploaded."""
+    balls: Floats = field(default_factory=lambda: np.zeros((0, 8), np.float32))
+    """(n, 8) middle and radius, m, and quaternion of the balls that roll through the scene."""
     meadow: MeadowMotion | None = None
     """Of the blades that the renderer holds; None where it holds none."""
 

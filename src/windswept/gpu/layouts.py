@@ -66,6 +66,8 @@ POSED_PIECE = np.dtype(
     ]
 )
 POSED_LEAF = LEAF
+BALL = np.dtype([("place", *REALS), ("rotation", *REALS)])
+"""Of ``balls.wgsl``."""
 GRASS_BLADE = np.dtype([("root", *REALS), ("chance", *REALS)])
 BATCH = np.dtype([("items", *COUNTS), ("scale", *REALS)])
 

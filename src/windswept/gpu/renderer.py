@@ -13,6 +13,7 @@ from windswept.geometry.detail import SOFTWARE_RULES, DetailRules
 from windswept.geometry.geometry import Geometry
 from windswept.gpu import layouts
 from windswept.gpu.backdrop import Backdrop
+from windswept.gpu.balls import Balls
 from windswept.gpu.buffers import UNIFORM
 from windswept.gpu.daylight import EXTINCTION, daylight
 from windswept.gpu.device import is_software, shared_device
@@ -122,7 +123,10 @@ class Renderer:
         self.canvas = Canvas(
             self._device, self._frame_layout, self._lighting.layout, (colour_format, SAMPLES)
         )
-        self.beside: list[Drawing] = []
+        self._balls = Balls(
+            self._device, self._frame_layout, self._lighting.layout, (colour_format, SAMPLES)
+        )
+        self.beside: list[Drawing] = [self._balls]
         self.resize(size)
 
     def resize(self, size: tuple[int, int]) -> None:
@@ -174,6 +178,7 @@ class Renderer:
         elif frame.meadow is not None:
             pixels = 0.5 * self.size[1] / np.tan(0.5 * frame.camera.fov_y)
             self.meadow.upload(frame.meadow, Sharpness(eye, scene_view.planes, float(pixels)))
+        self._balls.upload(frame.balls)
         encoder = self._device.create_command_encoder()
         around = self._times.around("curves")
         self.posing.encode(encoder, self._frame_group, wanted, frame.motion, around)

@@ -21,6 +21,7 @@ from windswept.gpu.meadow.blade_list import BladeRules
 from windswept.gpu.renderer import Renderer
 from windswept.motion import TIME_STEP, Level
 from windswept.plants.plant import Floats, Ints, Look
+from windswept.render.balls import balls_now
 from windswept.scene.camera import View, view_at
 from windswept.scene.simulation import Simulation
 from windswept.scene.terrain import Terrain
@@ -94,6 +95,7 @@ def frame_now(simulation: Simulation, view: View | None = None, level_colours: b
         sun=_triple(scene.sun_direction),
         time=simulation.time,
         wind=(float(x), float(y)),
+        balls=balls_now(simulation),
         meadow=meadow_motion(simulation),
     )
 
