@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from windswept.errors import GraphicsError
 from windswept.gpu.device import adapter_summary, is_software, shared_device
 from windswept.gpu.springs.kinds import GrownKind, grown_kinds
 from windswept.gpu.springs.simulation import GpuSimulation
@@ -36,7 +37,8 @@ FRAME_RATE = 60.0
 def bench_gpu_springs(say: Callable[[str], None] = lambda line: None) -> dict[str, float]:
     """Figures ``gpu.springs.*``, ``gpu.forest.*`` and ``gpu.frame.*``; stages by the card's own clock, if it has one.
 
-    ``times_cpu`` is our time on the CPU, all its threads, over that on the card, in the same run.
+    ``times_cpu`` is our time on the CPU, all its threads, over that on the card, in the same run. A software driver
+    takes no plants as large as those of the whole frame's scene: there it is left out, and said.
     """
     say(f"gpu, on {adapter_summary()}")
     figures: dict[str, float] = {}
@@ -47,7 +49,11 @@ def bench_gpu_springs(say: Callable[[str], None] = lambda line: None) -> dict[st
     say(f"gpu forest, {PLACEMENTS} placements")
     figures |= _forest()
     say("gpu frame of the forest edge")
-    return figures | _frame()
+    try:
+        return figures | _frame()
+    except GraphicsError as error:
+        say(f"not measured: {error}")
+        return figures
 
 
 def _springs(links: int, placements: int) -> dict[str, float]:
