@@ -45,7 +45,8 @@ def test_no_tip_of_any_level_exceeds_its_bound(hazel: Ladder) -> None:
 def test_levels_keep_the_power_of_the_motion(hazel: Ladder) -> None:
     decibels = band_errors(hazel)
     assert not decibels[0].any()
-    assert np.abs(decibels[1:-3]).max() < 2.0
+    assert np.nanmax(np.abs(decibels[1:-1])) < 2.0
+    assert np.isfinite(decibels[1:4, 0]).all()
 
 
 def test_hardest_winds_stay_below_the_stated_speed(hazel: Ladder) -> None:

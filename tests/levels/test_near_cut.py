@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from handmade import build_plant, straight
 from windswept.levels import (
     Eye,
     Ladder,
@@ -72,7 +73,7 @@ def test_tolerance_follows_the_stated_errors(oak: Ladder) -> None:
 
 def test_what_cannot_be_seen_counts_as_farther() -> None:
     looker = replace(eye(0.0, 0.0, 2.0), forward=np.array([0.0, 1.0, 0.0], np.float32))
-    places = np.array([[0.0, 30.0, 0.0], [0.0, -30.0, 0.0], [12.0, 0.0, 0.0], [0.0, -3.0, 0.0]], np.float32)
+    places = np.array([[0.0, 30.0, 0.0], [0.0, -30.0, 0.0], [60.0, -20.0, 0.0], [0.0, -3.0, 0.0]], np.float32)
     plain = seen_distance(looker, places, 5.0)
     spared = seen_distance(replace(looker, measures=(outside_view,)), places, 5.0)
     assert (spared / plain).tolist() == [1.0, 4.0, 4.0, 1.0]
@@ -86,3 +87,25 @@ def test_what_is_away_from_the_subject_counts_as_farther() -> None:
         looker, places, 5.0
     )
     assert factor == pytest.approx([1.0, 95.0 / 20.0])
+
+
+def test_a_trembling_view_changes_no_distance_by_more_than_the_dead_band() -> None:
+    azimuth = np.linspace(0.0, np.pi, 2000)
+    places = 40.0 * np.column_stack([np.sin(azimuth), np.cos(azimuth), 0.0 * azimuth]).astype(np.float32)
+    looker = replace(eye(0.0, 0.0, 2.0), measures=(outside_view,))
+    seen = [
+        seen_distance(replace(looker, forward=np.array([np.sin(turn), np.cos(turn), 0.0])), places, 5.0)
+        for turn in (0.0, np.radians(0.4))
+    ]
+    assert np.abs(seen[1] / seen[0] - 1.0).max() < looker.dead_band
+    assert seen[0].max() > 3.9 * seen[0].min()
+
+
+def test_plants_of_one_and_two_links_have_a_ladder_down_to_still() -> None:
+    for count in (1, 2):
+        plant = build_plant(straight(1.0, count, 0.01))
+        ladder = build_ladder(simplify(build_model(plant)))
+        assert ladder.oscillators == [count, 1, 1, 1]
+        looker = eye(0.0, -2.0, 0.5)
+        level = near_cut(ladder, node_balls(ladder.hierarchy), looker, looker.position)
+        assert 1 <= level.link_count + level.group_count <= count

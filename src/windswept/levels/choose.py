@@ -19,7 +19,10 @@ Measure = Callable[["Eye", Floats, float], Doubles]
 NEAREST = 0.1
 """No part of a plant is seen from nearer than this, m."""
 OUT_OF_VIEW = 4.0
-"""A plant that cannot be seen is treated as this many times farther away."""
+"""A plant that cannot be seen is treated as up to this many times farther away."""
+OUT_OF_VIEW_FROM, OUT_OF_VIEW_TO = np.radians(8.0), np.radians(30.0)
+"""Angles outside the picture's corner between which that factor rises: plants are fine again before they come in, and
+a trembling camera changes their distance by less than the dead band."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +56,7 @@ class Eye:
 
 
 def outside_view(eye: Eye, position: Floats, radius: float) -> Doubles:
-    """OUT_OF_VIEW for placements that are wholly outside the picture, 1 for the others."""
+    """1 for placements that can be seen or soon will be, rising to OUT_OF_VIEW for those far outside the picture."""
     if eye.forward is None:
         return np.ones(len(position))
     towards = position - eye.position
@@ -62,7 +65,8 @@ def outside_view(eye: Eye, position: Floats, radius: float) -> Doubles:
     off = np.arccos(np.clip(towards @ eye.forward / away, -1.0, 1.0)) - np.arcsin(
         np.minimum(radius / away, 1.0)
     )
-    return np.where((off > corner) & (away > radius), OUT_OF_VIEW, 1.0)
+    share = np.clip((off - corner - OUT_OF_VIEW_FROM) / (OUT_OF_VIEW_TO - OUT_OF_VIEW_FROM), 0.0, 1.0)
+    return np.where(away > radius, 1.0 + (OUT_OF_VIEW - 1.0) * share, 1.0)
 
 
 def away_from(point: Floats, reach: float) -> Measure:

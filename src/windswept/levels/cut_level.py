@@ -28,16 +28,14 @@ from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats, Ints
 
 
-def cut_level(hierarchy: Hierarchy, tolerance: float | Doubles, error: Doubles | None = None) -> Level:
+def cut_level(hierarchy: Hierarchy, tolerance: float | Doubles) -> Level:
     """The coarsest level whose error is nowhere above a tolerance.
 
     Args:
         hierarchy: of the plant.
-        tolerance: greatest error, of one number for the whole plant or (K,) for each node, in the unit of ``error``.
-        error: (K,) which error of the nodes to hold against it; None for ``hierarchy.error``.
+        tolerance: greatest ``hierarchy.error``, one number for the whole plant or (K,) for each node.
     """
-    measure = hierarchy.error if error is None else error
-    merged = measure <= tolerance
+    merged = hierarchy.error <= tolerance
     opened, groups = walk_cut(hierarchy.child, hierarchy.root, merged, hierarchy.model.link_count)
     return compact_level(hierarchy, np.sort(opened), groups)
 

@@ -38,7 +38,7 @@ class Ladder:
     levels: tuple[Level, ...]
     """Level K - 2 is `bend`: the whole plant follows the wind's pressure without inertia. K - 1 is still."""
     error: Doubles
-    """(K,) 95 % of tips are nearer than this to where level 0 has them, m: estimated, or measured once measured."""
+    """(K,) stated error, m: estimated 95 % of tips, or what `with_measured_errors` makes of a measurement."""
     tolerance: Doubles
     """(K,) reckoned error of the hierarchy's nodes at which each level is cut; 0 for every link."""
     bound: Doubles | None = None
@@ -67,7 +67,8 @@ def build_ladder(hierarchy: Hierarchy, multibody: bool = False) -> Ladder:
         links, nodes = walk_cut(
             hierarchy.child, hierarchy.root, hierarchy.error <= tolerance, hierarchy.model.link_count
         )
-        if len(links) + len(nodes) < STEP * (levels[-1].link_count + levels[-1].group_count):
+        whole = len(links) == 0 and levels[-1].link_count > 0
+        if whole or len(links) + len(nodes) < STEP * (levels[-1].link_count + levels[-1].group_count):
             levels.append(compact_level(hierarchy, np.sort(links), nodes))
             cuts.append(float(tolerance))
     # Without inertia a group is an oscillator of endless frequency.

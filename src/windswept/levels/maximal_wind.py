@@ -35,6 +35,7 @@ def maximal_wind(model: Model, speed: float = STATED_WIND, seed: int = 0) -> Air
     """
     lowest = float(model.stem_frequency[model.skeleton.stem[0]]) / (2.0 * np.pi)
     middle = float(np.median(model.stem_frequency)) / (2.0 * np.pi)
+    every = model.probe_position
     times, drawn = _random_sequence(speed, np.random.default_rng(seed))
 
     def blow(level: Level, time: float) -> Floats:
@@ -46,8 +47,8 @@ def maximal_wind(model: Model, speed: float = STATED_WIND, seed: int = 0) -> Air
         wind[1] = _along(speed * (1.0 if time % (2.0 * REVERSAL) < REVERSAL else -1.0), 1.9)
         wind[2] = _along(speed * (lowest * time % 1.0 < 0.5), 2.6)
         wind[3] = _along(speed * (middle * time % 1.0 < 0.5), 4.0)
-        wind[4] = _fronts(probes, time, speed, speed, 0.8)
-        wind[5] = _fronts(probes, time, speed, 0.5 * speed, 3.9)
+        wind[4] = _fronts(every, probes, time, speed, speed, 0.8)
+        wind[5] = _fronts(every, probes, time, speed, 0.5 * speed, 3.9)
         wind[6] = _along(speed, 2.0 * np.pi * lowest * time)
         wind[7, :, :2] = drawn[np.searchsorted(times, time, side="right") - 1]
         return wind
@@ -60,10 +61,15 @@ def _along(speed: float, azimuth: float) -> Floats:
     return np.array([speed * np.cos(azimuth), speed * np.sin(azimuth), 0.0], np.float32)
 
 
-def _fronts(probes: Floats, time: float, speed: float, travel: float, azimuth: float) -> Floats:
-    """(B, 3) wind behind sharp fronts that travel along an azimuth at a speed of their own."""
-    way = probes[:, 0] * np.cos(azimuth) + probes[:, 1] * np.sin(azimuth)
-    behind = time * travel - (way - way.min())
+def _fronts(
+    every: Floats, probes: Floats, time: float, speed: float, travel: float, azimuth: float
+) -> Floats:
+    """(B, 3) wind behind sharp fronts that travel along an azimuth at a speed of their own.
+
+    The first reaches the first of ``every`` probe of the plant at time 0, whichever of them a level samples.
+    """
+    along = np.array([np.cos(azimuth), np.sin(azimuth)])
+    behind = time * travel - (probes[:, :2] @ along - (every[:, :2] @ along).min())
     period = FRONT_PERIOD * travel
     within = np.where(behind > 0.0, behind % period, 0.0)
     rise = np.clip(np.minimum(within, 0.5 * period - within) / FRONT_RISE, 0.0, 1.0)

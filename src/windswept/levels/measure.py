@@ -163,10 +163,7 @@ def follow(
 
 def tip_positions(model: Model, level: Level, state: State, links: Ints) -> Floats:
     """(P, n, 3) where the far ends of some links are, m."""
-    pose = pose_links(model, level, state)
-    q, d = pose.rotation[:, links], model.skeleton.vector[links].astype(np.float32)
-    t = 2.0 * np.cross(q[..., :3], d)
-    return pose.position[:, links] + d + q[..., 3:] * t + np.cross(q[..., :3], t)
+    return pose_links(model, level, state).ends(model.skeleton.vector, links)
 
 
 def followed_tips(model: Model, most: int) -> Ints:

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats
 
 OUTLINE_DIRECTIONS = 12
@@ -25,8 +24,6 @@ class Metric:
     between: Callable[[Floats, Floats, float], Floats]
     """Error (K, P, m) of K levels from where P placements' n tips are now and were before, both (K, P, n, 3) m with
     level 0 first, and the seconds in between."""
-    weight: Callable[[Doubles], Doubles]
-    """(L,) what a joint's displacement error counts for, from its (L,) angular frequency, rad/s."""
 
 
 def _displacement(now: Floats, before: Floats, seconds: float) -> Floats:
@@ -35,7 +32,7 @@ def _displacement(now: Floats, before: Floats, seconds: float) -> Floats:
 
 
 def _velocity(now: Floats, before: Floats, seconds: float) -> Floats:
-    """Difference of every tip's velocity from that at level 0, m/s."""
+    """Difference of every tip's velocity, the mean since the last look, from that at level 0, m/s."""
     velocity = (now - before) / max(seconds, 1e-9)
     return np.linalg.norm(velocity - velocity[:1], axis=-1)
 
@@ -50,8 +47,8 @@ def _silhouette(now: Floats, before: Floats, seconds: float) -> Floats:
 
 
 METRICS = {
-    "displacement": Metric("m", _displacement, np.ones_like),
-    "velocity": Metric("m/s", _velocity, np.asarray),
-    "silhouette": Metric("m", _silhouette, np.ones_like),
+    "displacement": Metric("m", _displacement),
+    "velocity": Metric("m/s", _velocity),
+    "silhouette": Metric("m", _silhouette),
 }
 """Metrics by name."""

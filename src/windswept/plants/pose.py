@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from windswept.plants.plant import Floats, Plant
+from windswept.plants.plant import Floats, Ints, Plant
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +28,18 @@ class Pose:
     def rotation(self) -> Floats:
         """(P, L, 4) rotation of every link from its rest pose, quaternion x, y, z, w."""
         return self.link[..., 4:]
+
+    def ends(self, vector: Floats, links: Ints | None = None) -> Floats:
+        """(P, n, 3) where the far ends of links are, m.
+
+        Args:
+            vector: (L, 3) of every link from its joint to its end, at rest, m.
+            links: (n,) which; None for all.
+        """
+        which = slice(None) if links is None else links
+        q, d = self.rotation[:, which], vector[which].astype(np.float32)
+        t = 2.0 * np.cross(q[..., :3], d)
+        return self.position[:, which] + d + q[..., 3:] * t + np.cross(q[..., :3], t)
 
 
 def rest_pose(plant: Plant, placement_count: int = 1) -> Pose:

@@ -35,7 +35,8 @@ from windswept.wind.wind import Wind
 BLEND_TIME = 0.5
 """How long a placement takes from one level to another, s; it begins no other change meanwhile."""
 NEAR = 2.0
-"""A plant whose ball is nearer than this many of its radii is cut branch by branch, where that is cheaper."""
+"""A plant whose ball is nearer than this many of its radii is cut branch by branch where that is cheaper: where it is
+the only one of its kind at its level, and has a register of lanes to itself."""
 NEAR_STEP = 0.1
 """A cut branch by branch is made anew when the eye has come or gone by this share of its distance."""
 NEAR_GAIN = 0.8
@@ -102,7 +103,7 @@ class MovingKind:
         """Of a ball round the root that holds the plant, m."""
         self._terrain = terrain
         self._balls: NodeBalls | None = None
-        self._cut_from: dict[int, Floats] = {}
+        self._cut_from: dict[int, tuple[int, Floats, float]] = {}
 
     @property
     def live_sets(self) -> list[LevelSet]:
@@ -148,9 +149,11 @@ class MovingKind:
         leaving = self.near.get(placement, self.sets[self.at[placement]])
         self.at[placement] = rung
         target = self.sets[rung]
-        if near is not None and self._stale(placement, near):
+        if near is None:
+            self._cut_from.pop(placement, None)
+        elif self._stale(placement, rung, near):
             target = self._near_set(placement, rung, near) or target
-        elif near is not None and placement in self.near:
+        elif placement in self.near:
             return
         if target is leaving:
             return
@@ -159,20 +162,21 @@ class MovingKind:
             self.near[placement] = target
         self._go(placement, leaving, target, time, at_once)
 
-    def _stale(self, placement: int, eye: Eye) -> bool:
-        """Whether the eye has moved so far that the placement's own cut, or the lack of one, is out of date."""
-        before = self._cut_from.get(placement)
-        if before is None:
+    def _stale(self, placement: int, rung: int, eye: Eye) -> bool:
+        """Whether the eye has moved or zoomed so far that a placement's own cut, or lack of one, is out of date."""
+        if placement not in self._cut_from:
             return True
+        before_rung, before, pixel = self._cut_from[placement]
         distance = np.linalg.norm(self.placements.position[placement] - eye.position)
-        return bool(np.linalg.norm(before - eye.position) > NEAR_STEP * distance)
+        moved = np.linalg.norm(before - eye.position) > NEAR_STEP * distance
+        return bool(before_rung != rung or moved or abs(_pixel(eye) / pixel - 1.0) > NEAR_STEP)
 
     def _near_set(self, placement: int, rung: int, eye: Eye) -> LevelSet | None:
         """A set with a level cut for one placement, or None where that is not cheaper than its shared level."""
         assert self.ladder is not None
         if self._balls is None:
             self._balls = node_balls(self.ladder.hierarchy)
-        self._cut_from[placement] = np.array(eye.position, np.float32)
+        self._cut_from[placement] = rung, np.array(eye.position, np.float32), _pixel(eye)
         towards = (eye.position - self.placements.position[placement])[None, None]
         seen_from = turn_about_z(towards, -self.placements.yaw[placement : placement + 1])[0, 0]
         own = LevelSet(
@@ -244,3 +248,8 @@ class MovingKind:
             if level_set.winds is not None:
                 speeds[level_set.members] = np.linalg.norm(level_set.winds[1], axis=2).mean(axis=1)
         return speeds
+
+
+def _pixel(eye: Eye) -> float:
+    """Error that may be seen at a metre's distance, m."""
+    return float(eye.metres(np.ones(1))[0])

@@ -107,10 +107,7 @@ def _structure(model: Model, level: Level, link: Floats) -> Picture:
     from PIL import Image, ImageDraw
 
     skeleton, pose = model.skeleton, Pose(link)
-    q, d = pose.rotation[0], skeleton.vector.astype(np.float32)
-    t = 2.0 * np.cross(q[:, :3], d)
-    base = pose.position[0]
-    ends = np.stack([base, base + d + q[:, 3:] * t + np.cross(q[:, :3], t)], axis=1)[:, :, (0, 2)]
+    ends = np.stack([pose.position[0], pose.ends(skeleton.vector)[0]], axis=1)[:, :, (0, 2)]
     rest = np.abs(skeleton.base)
     scale = 0.92 * min(TREE[1] / rest[:, 2].max(), 0.5 * TREE[0] / rest[:, 0].max())
     picture = Image.new("RGB", TREE, PAPER_WHITE)

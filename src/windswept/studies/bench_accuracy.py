@@ -93,7 +93,7 @@ def hold(ladder: Ladder, seconds: float = SECONDS, seed: int = SEED) -> Held:
 
 
 def band_errors(ladder: Ladder) -> Doubles:
-    """(K, 3) power of the tips' motion at each level over that at level 0, in each band, dB; 0 below one pixel.
+    """(K, 3) power of the tips' motion at each level over that at level 0, in each band, dB; NaN where none is seen.
 
     Args:
         ladder: with its stated errors, which are one pixel at the distance from which each level is used.
@@ -105,8 +105,8 @@ def band_errors(ladder: Ladder) -> Doubles:
     power = np.array([_band_powers(track[:, level], rate) for level in range(len(ladder.levels))])
     seen = 2.0 * power[0] > ladder.error[:, None, None] ** 2
     either = np.where(seen, power, 0.0).sum(axis=2), np.where(seen, power[0], 0.0).sum(axis=2)
-    ratio = np.where(either[1] > 0.0, either[0] / np.maximum(either[1], 1e-30), 1.0)
-    return 10.0 * np.log10(np.maximum(ratio, 1e-9))
+    ratio = np.maximum(either[0], 1e-30) / np.maximum(either[1], 1e-30)
+    return np.where(either[1] > 0.0, 10.0 * np.log10(ratio), np.nan)
 
 
 def _band_powers(track: Floats, rate: float) -> Doubles:

@@ -11,7 +11,9 @@ override REGISTER: u32 = 8u;   // placements that the CPU steps at once: idle la
 @group(0) @binding(5) var<uniform> moment: Moment;
 
 const NEAREST = 0.1;       // no part of a plant is seen from nearer than this, m
-const OUT_OF_VIEW = 4.0;   // who is wholly outside the picture counts as this many times farther away
+const OUT_OF_VIEW = 4.0;   // who is far outside the picture counts as this many times farther away
+const OUT_OF_VIEW_FROM = 0.1396263;   // angles outside the picture's corner between which that rises, rad
+const OUT_OF_VIEW_TO = 0.5235988;
 
 // Distance from which a plant is seen: levels/choose.py.
 fn seen_distance(position: vec3f, radius: f32) -> f32 {
@@ -20,8 +22,9 @@ fn seen_distance(position: vec3f, radius: f32) -> f32 {
     let near = max(away - radius, NEAREST);
     let far = max(away, NEAREST);
     let off = acos(clamp(dot(towards, moment.view.xyz) / far, -1.0, 1.0)) - asin(min(radius / far, 1.0));
-    let outside = moment.view.w > 0.0 && off > moment.view.w && far > radius;
-    return select(near, OUT_OF_VIEW * near, outside);
+    let share = saturate((off - moment.view.w - OUT_OF_VIEW_FROM) / (OUT_OF_VIEW_TO - OUT_OF_VIEW_FROM));
+    let seen = moment.view.w <= 0.0 || away <= radius;
+    return select(near * (1.0 + (OUT_OF_VIEW - 1.0) * share), near, seen);
 }
 
 // Coarsest place on the ladder whose error is not seen.
