@@ -73,7 +73,7 @@ def _fronts(
     period = FRONT_PERIOD * travel
     within = np.where(behind > 0.0, behind % period, 0.0)
     rise = np.clip(np.minimum(within, 0.5 * period - within) / FRONT_RISE, 0.0, 1.0)
-    return rise[:, None] * _along(speed, azimuth)
+    return rise[:, None].astype(np.float32) * _along(speed, azimuth)
 
 
 def _random_sequence(speed: float, rng: np.random.Generator) -> tuple[Floats, Floats]:

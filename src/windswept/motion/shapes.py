@@ -49,7 +49,7 @@ def shaped(shape, u, limit):  # type: ignore[no-untyped-def]
 
 @njit(fastmath=FAST_MATH, forceinline=True)
 def shape_slopes(shape, u, limit):  # type: ignore[no-untyped-def]
-    """(2, 3) how both angles of a joint grow with each component of u, as if nothing held it, rad s^2/m^2; see `shaped`."""
+    """(2, 3) slope of both angles in each component of u, as if nothing held them, rad s^2/m^2; see `shaped`."""
     short = limit / sqrt(at_least(dot(u, u), limit * limit))
     x, y, z = u[0] * short, u[1] * short, u[2] * short
     return (

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from windswept.plants.plant import Floats, Ints, Plant
 
@@ -29,7 +30,7 @@ class Pose:
         """(P, L, 4) rotation of every link from its rest pose, quaternion x, y, z, w."""
         return self.link[..., 4:]
 
-    def ends(self, vector: Floats, links: Ints | None = None) -> Floats:
+    def ends(self, vector: NDArray[np.floating], links: Ints | None = None) -> Floats:
         """(P, n, 3) where the far ends of links are, m.
 
         Args:

@@ -13,7 +13,6 @@ from windswept.gpu import layouts
 from windswept.gpu.springs.kinds import kinds_of
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.levels import Eye, outside_view
-from windswept.scene import moving_kind
 
 
 def eye_at(y: float) -> Eye:
