@@ -76,9 +76,15 @@ def test_levels_reports_every_level(capsys: pytest.CaptureFixture[str]) -> None:
     links = [row["links"] for row in report["levels"]]
     assert links == sorted(links, reverse=True)
     assert report["levels"][0]["measured_max_m"] == 0.0
-    assert {"level", "links", "measured_p95_m", "measured_max_m", "distance_m", "ns_per_step"} <= set(
-        report["levels"][0]
-    )
+    assert {
+        "level",
+        "links",
+        "bound_m",
+        "measured_p95_m",
+        "measured_max_m",
+        "distance_m",
+        "ns_per_step",
+    } <= set(report["levels"][0])
     assert report["bytes_plant"] > 0
 
 
@@ -160,3 +166,15 @@ def test_importing_windswept_loads_nothing_heavy() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_levels_are_drawn_and_have_errors_in_the_metrics_unit(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    picture = tmp_path / "levels.png"
+    assert run("levels", "hazel", "--seconds", 1, "--metric", "velocity", "--plot", picture, "--json") == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["unit"] == "m/s"
+    assert report["levels"][1]["bound_m_s"] >= report["levels"][1]["measured_p95_m_s"] > 0.0
+    assert report["levels"][1]["distance_m"] is None
+    assert picture.stat().st_size > 5_000

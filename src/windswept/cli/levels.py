@@ -23,11 +23,11 @@ from windswept.levels import (
     with_measured_errors,
 )
 from windswept.levels.measure import Measured
-from windswept.levels.metrics import METRICS
+from windswept.levels.metrics import METRICS, Metric
 from windswept.levels.static_shapes import STATED_WIND
 from windswept.motion import build_model
 from windswept.plants.sources import grow_source
-from windswept.studies.level_costs import levels_bytes, nanoseconds_per_step, plant_bytes
+from windswept.studies.level_costs import levels_bytes, merge_tree_bytes, nanoseconds_per_step, plant_bytes
 from windswept.studies.levels_plot import draw_levels
 
 
@@ -69,7 +69,7 @@ def command(
     with status_line("measuring every level against level 0"):
         measured = measure(ladder, seconds, metric=metric)
         stated = with_measured_errors(ladder, measured, bound_errors(ladder, metric))
-        rows = [level_row(stated, measured, rung) for rung in range(len(ladder.levels))]
+        rows = [level_row(stated, measured, rung, METRICS[metric]) for rung in range(len(ladder.levels))]
     report = {
         "species": plant.species,
         "stated_wind_m_s": STATED_WIND,
@@ -79,6 +79,7 @@ def command(
         "build_seconds": round(seconds_to_build, 4),
         "bytes_plant": plant_bytes(plant, ladder.levels[0]),
         "bytes_levels": levels_bytes(ladder),
+        "bytes_merge_tree": merge_tree_bytes(ladder),
     }
     if path is not None:
         draw_levels(report, path)
@@ -88,9 +89,10 @@ def command(
         _print_table(report)
 
 
-def level_row(stated: Ladder, measured: Measured, rung: int) -> dict[str, Any]:
-    """Figures of one level of a ladder whose errors and bound are measured."""
+def level_row(stated: Ladder, measured: Measured, rung: int, metric: Metric) -> dict[str, Any]:
+    """Figures of one level of a ladder whose errors and bound are measured; only errors in metres have a distance."""
     assert stated.bound is not None
+    unit = metric.suffix
     eye = Eye(np.zeros(3, np.float32), np.radians(60.0))
     level = stated.levels[rung]
     return {
@@ -99,12 +101,12 @@ def level_row(stated: Ladder, measured: Measured, rung: int) -> dict[str, Any]:
         "links": level.link_count + level.group_count,
         "rigid_links": level.link_count,
         "groups": level.group_count,
-        "bound_m": round(float(stated.bound[rung]), 5),
-        "measured_p95_m": round(float(measured.p95[rung]), 5),
-        "measured_max_m": round(float(measured.largest[rung]), 5),
-        "stated_m": round(float(stated.error[rung]), 5),
+        f"bound_{unit}": round(float(stated.bound[rung]), 5),
+        f"measured_p95_{unit}": round(float(measured.p95[rung]), 5),
+        f"measured_max_{unit}": round(float(measured.largest[rung]), 5),
+        f"stated_{unit}": round(float(stated.error[rung]), 5),
         "rms_over_motion": round(float(measured.rms[rung] / measured.motion), 4),
-        "distance_m": round(float(eye.distance(stated.error[rung : rung + 1])[0]), 2),
+        "distance_m": round(float(eye.distance(stated.error[rung])), 2) if metric.unit == "m" else None,
         "ns_per_step": round(nanoseconds_per_step(stated.hierarchy.model, level), 1),
     }
 
@@ -114,16 +116,19 @@ def _print_table(report: dict[str, Any]) -> None:
         f"{'level':>5} {'links':>7} {'p95':>9} {'max':>9} {'bound':>9} {'rms/motion':>10} {'from m':>8}"
         f" {'ns/step':>10}   errors in {report['unit']}"
     )
+    unit = METRICS[report["metric"]].suffix
     for row in report["levels"]:
+        p95, largest, bound = (row[f"{name}_{unit}"] for name in ("measured_p95", "measured_max", "bound"))
+        distance = "" if row["distance_m"] is None else f"{row['distance_m']:.1f}"
         click.echo(
-            f"{row['level']:>5} {row['links']:>7} {row['measured_p95_m']:>9.4f} {row['measured_max_m']:>9.4f} "
-            f"{row['bound_m']:>9.4f} {row['rms_over_motion']:>10.1%} {row['distance_m']:>8.1f}"
-            f" {row['ns_per_step']:>10.0f}"
+            f"{row['level']:>5} {row['links']:>7} {p95:>9.4f} {largest:>9.4f} {bound:>9.4f}"
+            f" {row['rms_over_motion']:>10.1%} {distance:>8} {row['ns_per_step']:>10.0f}"
         )
     if report["levels"][0]["motion"] == "multibody":
         coupled = [str(row["level"]) for row in report["levels"] if row["motion"] == "multibody"]
         click.echo(f"multibody: {', '.join(coupled)}; the others: springs")
     share = report["bytes_levels"] / report["bytes_plant"]
     click.echo(
-        f"built in {report['build_seconds']:.3f} s; {share:.0%} of the memory of the plant and its level 0"
+        f"built in {report['build_seconds']:.3f} s; {share:.0%} of the memory of the plant and its level 0, and"
+        f" {report['bytes_merge_tree'] / report['bytes_plant']:.0%} for the tree that near plants are cut from"
     )

@@ -1,10 +1,10 @@
 """What steady wind does to a plant: the static shapes that merged branches move in.
 
 Under a uniform wind pressure p (the wind's speed squared and its direction, the same on the whole plant) every joint
-turns by an angle that is linear in p, while it is small. The torque on a joint comes only from what lies beyond it, so this *influence* is a
-constant of the link, the same whichever branches are merged: merging branches means letting their joints listen to
-one shared pressure u(t) instead of each to an oscillator of its own. The quasi-static part of the motion is then
-right by construction, however different in direction, length and stiffness the merged branches are.
+turns by an angle that is linear in p, while it is small. The torque on a joint comes only from what lies beyond it,
+so this *influence* is a constant of the link, the same whichever branches are merged: merging branches means letting
+their joints listen to one shared pressure u(t) instead of each to an oscillator of its own. The quasi-static part of
+the motion is then right by construction, however unlike in direction, length and stiffness the merged branches are.
 """
 
 from __future__ import annotations

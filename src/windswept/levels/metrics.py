@@ -21,6 +21,8 @@ class Metric:
     """A way to hold a level's motion against that of level 0."""
 
     unit: str
+    suffix: str
+    """The unit as it stands at the end of a figure's name."""
     between: Callable[[Floats, Floats, float], Floats]
     """Error (K, P, m) of K levels from where P placements' n tips are now and were before, both (K, P, n, 3) m with
     level 0 first, and the seconds in between."""
@@ -47,8 +49,8 @@ def _silhouette(now: Floats, before: Floats, seconds: float) -> Floats:
 
 
 METRICS = {
-    "displacement": Metric("m", _displacement),
-    "velocity": Metric("m/s", _velocity),
-    "silhouette": Metric("m", _silhouette),
+    "displacement": Metric("m", "m", _displacement),
+    "velocity": Metric("m/s", "m_s", _velocity),
+    "silhouette": Metric("m", "m", _silhouette),
 }
 """Metrics by name."""

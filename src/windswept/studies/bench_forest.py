@@ -34,7 +34,9 @@ def bench_forest(say: Callable[[str], None] = lambda line: None) -> dict[str, fl
     ms_full = milliseconds_per_step(full)
     say(f"{name}, at levels")
     levelled = Simulation(scene, plants, levels=True, picture_height=1080)
+    changing = _timed_changes(levelled)
     ms_active = milliseconds_per_step(levelled)
+    share_of_changes = changing() / (levelled.step_count * ms_active)
     choosing = milliseconds_to_choose(levelled)
     return {
         f"{name}.links_full": full.stepped_count,
@@ -42,6 +44,7 @@ def bench_forest(say: Callable[[str], None] = lambda line: None) -> dict[str, fl
         f"{name}.ms_full": ms_full,
         f"{name}.ms_active": ms_active,
         "choose.share_of_step": choosing / (4.0 * ms_active),
+        "choose.share_with_changes": share_of_changes,
     }
 
 
@@ -79,6 +82,19 @@ def milliseconds_per_step(simulation: Simulation) -> float:
     before, started = simulation.step_count, time.perf_counter()
     simulation.advance(SECONDS)
     return 1e3 * (time.perf_counter() - started) / (simulation.step_count - before)
+
+
+def _timed_changes(simulation: Simulation) -> Callable[[], float]:
+    """Has the simulation time all its choosing and changing of levels from now on; gives what tells the sum, ms."""
+    change, spent = simulation.change_levels, [0.0]
+
+    def timed(at_once: bool = False) -> None:
+        started = time.perf_counter()
+        change(at_once)
+        spent[0] += 1e3 * (time.perf_counter() - started)
+
+    simulation.change_levels = timed  # type: ignore[method-assign]
+    return lambda: spent[0]
 
 
 def milliseconds_to_choose(simulation: Simulation, repeats: int = 20) -> float:

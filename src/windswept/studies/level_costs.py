@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from windswept.levels import Ladder
+from windswept.levels import Hierarchy, Ladder
+from windswept.levels.influence import Influence
 from windswept.levels.training_wind import training_wind, wind_on
 from windswept.motion import Level, Model, build_stepper, rest_state
 from windswept.motion.lanes import WIDTH
@@ -35,7 +36,12 @@ def levels_bytes(ladder: Ladder) -> int:
     return ladder.hierarchy.shapes.nbytes + sum(_bytes_of(level) for level in own)
 
 
-def _bytes_of(one: Plant | Level) -> int:
+def merge_tree_bytes(ladder: Ladder) -> int:
+    """Memory of what levels are cut from: the merge tree and the first-order influence of every link."""
+    return _bytes_of(ladder.hierarchy) + _bytes_of(ladder.hierarchy.influence)
+
+
+def _bytes_of(one: Plant | Level | Hierarchy | Influence) -> int:
     """Memory of a dataclass' arrays, but for the static shapes of a level, which are not its own."""
     arrays = (getattr(one, name) for name in one.__dataclass_fields__ if name != "shapes")
     return sum(array.nbytes for array in arrays if isinstance(array, np.ndarray))

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from windswept.levels.metrics import METRICS
 from windswept.render.offscreen import write_png
 
 SIZE = (1100, 760)
@@ -16,9 +17,9 @@ FRAME = (110, 90, 1060, 660)
 """Left, top, right and bottom of the axes, pixels."""
 INK, FAINT = (40, 40, 40), (222, 222, 222)
 CURVES = (
-    ("bound_m", "bound, hardest winds up to 12 m/s", (170, 170, 170)),
-    ("measured_max_m", "largest measured", (226, 140, 20)),
-    ("measured_p95_m", "95 % of tips", (24, 110, 60)),
+    ("bound", "bound, hardest winds up to 12 m/s", (170, 170, 170)),
+    ("measured_max", "largest measured", (226, 140, 20)),
+    ("measured_p95", "95 % of tips", (24, 110, 60)),
 )
 
 
@@ -36,14 +37,17 @@ def draw_levels(report: dict[str, Any], path: Path) -> None:
 
     picture = Image.new("RGB", SIZE, (255, 255, 255))
     draw = ImageDraw.Draw(picture)
-    rows = [row for row in report["levels"] if row["level"] > 0 and row["bound_m"] > 0.0]
+    unit = METRICS[report["metric"]].suffix
+    rows = [row for row in report["levels"] if row["level"] > 0 and row[f"bound_{unit}"] > 0.0]
     links = [row["links"] for row in report["levels"]]
-    values = [max(row[name], 1e-6) for row in rows for name, _, _ in CURVES]
+    values = [max(row[f"{name}_{unit}"], 1e-6) for row in rows for name, _, _ in CURVES]
     across = (0.7, 1.4 * max(links))
     up = (0.7 * min(values), 1.5 * max(values))
     _axes(draw, across, up, report)
     for place, (name, words, colour) in enumerate(CURVES):
-        points = [(_at(row["links"], across, 0, 2), _at(max(row[name], 1e-6), up, 3, 1)) for row in rows]
+        points = [
+            (_at(row["links"], across, 0, 2), _at(max(row[f"{name}_{unit}"], 1e-6), up, 3, 1)) for row in rows
+        ]
         draw.line(points, fill=colour, width=3)
         for x, y in points:
             draw.ellipse((x - 5, y - 5, x + 5, y + 5), fill=colour)
