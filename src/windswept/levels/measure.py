@@ -93,7 +93,7 @@ def bound_errors(ladder: Ladder, metric: str = "displacement") -> Doubles:
     for now, before, apart in follow(ladder, TRIAL_SECONDS, maximal_wind(model), tips):
         error = METRICS[metric].between(now, before, apart)
         largest = np.maximum(largest, error.max(axis=(1, 2)))
-    return OTHER_TRIALS * np.maximum.accumulate(largest)
+    return OTHER_TRIALS * _rising(ladder, largest)
 
 
 def with_measured_errors(ladder: Ladder, measured: Measured, bound: Doubles | None = None) -> Ladder:
@@ -104,7 +104,16 @@ def with_measured_errors(ladder: Ladder, measured: Measured, bound: Doubles | No
         measured: its errors in the training wind.
         bound: (K,) its largest errors in maximal wind, where they were sought.
     """
-    return replace(ladder, error=np.maximum.accumulate(stated_errors(measured)), bound=bound)
+    return replace(ladder, error=_rising(ladder, stated_errors(measured)), bound=bound)
+
+
+def _rising(ladder: Ladder, errors: Doubles) -> Doubles:
+    """(K,) errors that never fall among the levels of one motion model."""
+    rising = errors.copy()
+    coupled = np.array([level.coupled for level in ladder.levels])
+    for one in (coupled, ~coupled):
+        rising[one] = np.maximum.accumulate(errors[one])
+    return rising
 
 
 def stated_errors(measured: Measured) -> Doubles:
