@@ -32,6 +32,8 @@ NEAREST_BAND = 3.0
 """Nearer than this every blade stands for itself, m; each band beyond reaches twice as far as the one before."""
 BLADE_PIXELS = 1.2
 """Farther away, so few blades stand for all that they are about so wide on the screen."""
+STALK = 3.0
+"""Width of a stalk that counts here over its own."""
 FEWEST = 3.0
 """Blades of a kind that a thinned tuft keeps; to go below, tufts are left out and the others stand for them."""
 
@@ -141,7 +143,9 @@ def _shares(tufts: Sequence[Tuft], pixel: float) -> NDArray[np.float64]:
     for kind in range(len(kinds) - 1, -1, -1):
         component = kinds[kind].component
         least = max(BLADE_PIXELS * pixel, 1e-9)
-        enough = min(1e-3 * component.width_mm / least, 1.0) * min(1e-3 * component.length_mm / least, 1.0)
+        # A few thick stalks would look like posts: they stay thin, and more of them.
+        width = 1e-3 * component.width_mm * (STALK if component.shape == "round" else 1.0)
+        enough = min(width / least, 1.0) * min(1e-3 * component.length_mm / least, 1.0)
         carried = [share[k] for k in range(kind + 1, len(kinds)) if kinds[k].component.parent == names[kind]]
         share[kind] = max([enough, *carried])
     return share

@@ -33,7 +33,7 @@ class BladeRules:
     """Where the last blades end and the ground's own colour takes over, m."""
 
 
-SOFTWARE_BLADES = BladeRules(2.0, (16.0, 6.0), 90.0)
+SOFTWARE_BLADES = BladeRules(1.6, (16.0, 6.0), 90.0)
 """For a machine that draws triangles on the CPU."""
 
 

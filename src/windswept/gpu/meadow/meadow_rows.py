@@ -25,6 +25,8 @@ Doubles = NDArray[np.float64]
 LEVEL_SECTIONS = (16, 3, 2)
 """Most sections that a blade is drawn with at each level."""
 LEVELS = len(LEVEL_SECTIONS)
+STALK = 3.0
+"""Width for detail of a stalk over its own."""
 CHUNK = 128
 """Neighbouring blades of a kind that are seen or hidden together."""
 
@@ -150,12 +152,13 @@ def _level_sections(kind: BladeKind) -> list[int]:
 def _mean_size(one: _Set) -> tuple[float, float]:
     """Mean width as drawn and length of a section, m."""
     kind, size = one.blades.kind, float(one.blades.size.mean())
-    return _width(kind) * one.stands_for * size, float(kind.table.length.mean()) * size
+    return _width_for_detail(kind) * one.stands_for * size, float(kind.table.length.mean()) * size
 
 
-def _width(kind: BladeKind) -> float:
-    """Mean width of a blade of size 1, m."""
-    return 2.0 * float(np.abs(kind.blade.left[:, 2]).mean())
+def _width_for_detail(kind: BladeKind) -> float:
+    """Mean width of a blade of size 1, m; stalks count as wider, since few thick ones would look like posts."""
+    width = 2.0 * float(np.abs(kind.blade.left[:, 2]).mean())
+    return STALK * width if kind.blade.round else width
 
 
 def _run(one: _Set, level: int, tables: _Tables, borders: _Borders) -> NDArray[np.void]:
@@ -170,7 +173,7 @@ def _run(one: _Set, level: int, tables: _Tables, borders: _Borders) -> NDArray[n
     round_power = 1.5 if kind.blade.round else 1.0
     row["shape"] = length, kind.weight, 1.0 / kind.broken_scale, round_power
     on_ground = one.blades.parent_kind < 0
-    row["width"] = _width(kind) * one.stands_for, one.stands_for, kind.blade.round, on_ground
+    row["width"] = _width_for_detail(kind) * one.stands_for, one.stands_for, kind.blade.round, on_ground
     row["colour"] = *component.colour, 0.0
     row["tip"] = *component.tip_colour, 0.0
     return row
