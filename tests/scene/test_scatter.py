@@ -14,7 +14,7 @@ L_SHAPE = Area(np.array([[0.0, 0.0], [30.0, 0.0], [30.0, 10.0], [10.0, 10.0], [1
 
 
 def throw(area: Area, sorts: list[Sort], seed: int = 0, into: float | None = None) -> list[np.ndarray]:
-    ground = Ground(cell=max(sort.spacing for sort in sorts))
+    ground = Ground()
     return scatter(area, sorts, ground, np.random.default_rng(seed), into)
 
 
@@ -27,7 +27,7 @@ def test_spacing_is_kept_within_and_between_sorts() -> None:
 
 
 def test_earlier_plants_keep_their_distance() -> None:
-    ground = Ground(cell=6.0)
+    ground = Ground()
     ground.take(0.0, 0.0, 6.0)
     (places,) = scatter(SQUARE, [Sort(80, 2.0)], ground, np.random.default_rng(0))
     assert np.linalg.norm(places, axis=1).min() >= 4.0

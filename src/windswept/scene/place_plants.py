@@ -34,7 +34,7 @@ def place_plants(source: str, form: SceneForm, terrain: Terrain) -> Nursery:
     """
     _check_budget(source, form)
     nursery = Nursery()
-    ground = Ground(cell=max([1.0, *(sort.spacing_m for stand in form.stand for sort in stand.source)]))
+    ground = Ground()
     for i, plant in enumerate(form.plant):
         _place_one(source, f"plant[{i}]", plant, terrain, ground, nursery)
     for i, stand in enumerate(form.stand):

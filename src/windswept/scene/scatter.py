@@ -16,34 +16,44 @@ Reals = NDArray[np.float64]
 DARTS = 2000
 """Places tried in a row before a stand counts as full."""
 BATCH = 256
+LEAST_EDGE = 0.5
+"""Of a cell, m."""
 BIAS_POWER = 4.0
 """How strongly a full depth bias crowds plants: their density goes as depth^4."""
 
 
+Cells = dict[tuple[int, int], list[tuple[float, float]]]
+
+
 @dataclass
 class Ground:
-    """Places that are taken, in square cells for a quick search."""
+    """Places that are taken, in square cells for a quick search: wide ones for trees, narrow ones for grass."""
 
-    cell: float
-    """Edge of a cell and greatest spacing that may be asked, m."""
-    cells: dict[tuple[int, int], list[tuple[float, float, float]]] = field(default_factory=dict)
-    """x, y and spacing of the plants in each cell."""
+    layers: dict[float, Cells] = field(default_factory=dict)
+    """x and y of the plants of each spacing, in each cell of that edge."""
 
     def is_free(self, x: float, y: float, spacing: float) -> bool:
         """Whether every plant is further away than the mean of its spacing and this one's."""
-        column, row = math.floor(x / self.cell), math.floor(y / self.cell)
-        for i in range(column - 1, column + 2):
-            for j in range(row - 1, row + 2):
-                for other_x, other_y, other_spacing in self.cells.get((i, j), ()):
-                    least = 0.5 * (spacing + other_spacing)
-                    if (x - other_x) ** 2 + (y - other_y) ** 2 < least * least:
-                        return False
-        return True
+        return all(
+            _is_free(cells, x, y, other, 0.5 * (spacing + other)) for other, cells in self.layers.items()
+        )
 
     def take(self, x: float, y: float, spacing: float) -> None:
         """Mark a place as taken."""
-        key = (math.floor(x / self.cell), math.floor(y / self.cell))
-        self.cells.setdefault(key, []).append((x, y, spacing))
+        edge = max(spacing, LEAST_EDGE)
+        key = (math.floor(x / edge), math.floor(y / edge))
+        self.layers.setdefault(spacing, {}).setdefault(key, []).append((x, y))
+
+
+def _is_free(cells: Cells, x: float, y: float, spacing: float, least: float) -> bool:
+    """Whether no plant of one spacing is nearer than ``least``."""
+    edge = max(spacing, LEAST_EDGE)
+    for i in range(math.floor((x - least) / edge), math.floor((x + least) / edge) + 1):
+        for j in range(math.floor((y - least) / edge), math.floor((y + least) / edge) + 1):
+            for other_x, other_y in cells.get((i, j), ()):
+                if (x - other_x) ** 2 + (y - other_y) ** 2 < least * least:
+                    return False
+    return True
 
 
 @dataclass(frozen=True, slots=True)
