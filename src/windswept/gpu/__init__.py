@@ -6,7 +6,10 @@ What stays is uploaded once, what moves is uploaded every frame, and one draw li
     Frame --draw_list--> what to draw of each placement    (draw_list.py, by geometry/detail.py)
           --Posing--> posed pieces and leaves              (posing.py, shaders/curves.wgsl)
           --PlantDrawing--> shadow map, then picture       (plant_drawing.py, shaders/bark.wgsl, leaves.wgsl)
-          --Backdrop--> grass, ground, sky                 (backdrop.py, shaders/grass.wgsl, ground.wgsl, sky.wgsl)
+          --MeadowDrawing--> blades of underbrush          (meadow/, shaders/blades_pose.wgsl, blades.wgsl)
+          --Balls--> balls of the force field              (balls.py, shaders/balls.wgsl)
+          --Backdrop--> ground, sky, and a made-up lawn    (backdrop.py, shaders/grass.wgsl, ground.wgsl, sky.wgsl)
+                        where a scene has no underbrush
 
 Where the simulation runs on the card too (springs/), a frame is wind, steps, pose, curves, picture without read-back:
 ``Frame.motion`` names the buffer that holds the poses, and nothing of a placement's motion is uploaded.

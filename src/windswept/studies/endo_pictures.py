@@ -33,7 +33,7 @@ VARIANTS: tuple[dict[str, float], ...] = (
     {"density": 1100.0, "curve_deg": 90.0},
 )
 """Values of the leaf of a tuft, one picture each: as it is, thin, broad and long, heavy and curved."""
-WIND = ((0.0, 0.0), (9.0, 2.6), (0.0, 5.0))
+WIND = ((0.0, 0.0), (13.0, 2.6), (0.0, 5.0))
 """Speed of the air, m/s, and until when it blows, s: calm, a flow, calm again."""
 SECTIONS = 8
 
