@@ -21,6 +21,7 @@ NAMES = (
     "spread",
     "draw",
     "gpu_springs",
+    "gpu_blades",
     "gpu_multibody",
 )
 
@@ -31,8 +32,8 @@ NAMES = (
 def command(names: tuple[str, ...], as_json: bool) -> None:
     """Measure speed on this machine, of some parts or of all.
 
-    Parts: springs, multibody, levels, accuracy, forest, bend, blades, field, growth, spread, draw, gpu_springs and
-    gpu_multibody.
+    Parts: springs, multibody, levels, accuracy, forest, bend, blades, field, growth, spread, draw, gpu_springs,
+    gpu_blades and gpu_multibody.
 
     Example: windswept bench springs --json
     """

@@ -19,6 +19,7 @@ SHADER_SETS = {
     "blades_pose": ("types", "light", "meadow", "rotation", "blades_types", "blades_light", "blades_pose"),
     "blades": ("types", "blades_types", "blades"),
     "lean": ("lean_types", "lean"),
+    "blade_choice": ("scan", "blade_choice_types", "blade_choice"),
     "balls": ("types", "light", "rotation", "balls"),
     "sky": ("types", "light", "sky"),
     "wind": ("motion", "air", "wind"),

@@ -72,7 +72,7 @@ def lean_rows(sets: Sequence[Blades], airs: Sequence[int]) -> LeanRows:
 
 def _kind_row(kind: BladeKind) -> NDArray[np.void]:
     """(1,) ``LEAN_KIND``."""
-    numbers = kind_numbers(kind).tolist()
+    numbers: list[float] = kind_numbers(kind).tolist()
     row = np.zeros(1, LEAN_KIND)
     row["share"] = *numbers[SHARE : SHARE + 3], numbers[HALF_EXPONENT]
     row["air"] = numbers[PUSH], numbers[ONSET], numbers[WEIGHT], numbers[SIDE_REACH]
@@ -87,7 +87,7 @@ def air_grids(fields: Sequence[PackedField]) -> NDArray[np.void]:
     for row, field in zip(rows, fields, strict=False):
         grid = field.grid
         row["nodes"] = grid.nodes_x, grid.nodes_y, grid.nodes_z, first
-        row["origin"] = grid.origin_x, grid.origin_y, 0.0, 0.0
-        row["per_metre"] = grid.per_x, grid.per_y, grid.per_z, 0.0
+        row["origin"] = float(grid.origin_x), float(grid.origin_y), 0.0, 0.0
+        row["per_metre"] = float(grid.per_x), float(grid.per_y), float(grid.per_z), 0.0
         first += field.nodes.size // WIDTH
     return rows
