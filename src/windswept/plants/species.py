@@ -36,7 +36,9 @@ def load_species(source: str | Path) -> Species:
     path, shown = _find(source), shown_path(source)
     tables = read_toml(path, LARGEST_FILE, "a species file")
     if tables.get("kind") == "underbrush":
-        raise InputError(shown, "kind", "underbrush", "a plant that grows alone; underbrush is grown into scenes")
+        raise InputError(
+            shown, "kind", "underbrush", "a plant that grows alone; underbrush is grown into scenes"
+        )
     species = check_form(shown, Species, tables)
     check_lengths(shown, species.growth)
     return species
