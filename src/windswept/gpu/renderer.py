@@ -123,9 +123,7 @@ class Renderer:
         self.canvas = Canvas(
             self._device, self._frame_layout, self._lighting.layout, (colour_format, SAMPLES)
         )
-        self._balls = Balls(
-            self._device, self._frame_layout, self._lighting.layout, (colour_format, SAMPLES)
-        )
+        self._balls = Balls(self._device, self._frame_layout, self._lighting.layout, (colour_format, SAMPLES))
         self.beside: list[Drawing] = [self._balls]
         self.resize(size)
 
