@@ -39,3 +39,16 @@ def test_too_little_memory_is_said_and_the_cpu_goes_on(
     assert "needs 9 MB; simulating on the CPU" in said.err
     assert json.loads(said.out)["steps_per_second"] > 0
     assert picture.exists()
+
+
+def test_underbrush_is_simulated_on_the_cpu_and_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene, picture = tmp_path / "tuft.toml", tmp_path / "tuft.png"
+    scene.write_text(
+        '[[plant]]\nsource = "common_poppy"\nposition = [0.0, 0.0]\n'
+        "[camera]\neye = [0.0, -1.5, 0.6]\ntarget = [0.0, 0.0, 0.3]\n"
+    )
+    main(["render", str(scene), "-o", str(picture), "--size", "96x64", "--at", "0.1", "--gpu"])
+    assert "underbrush and force fields are not simulated on the card" in capsys.readouterr().err
+    assert picture.exists()

@@ -165,6 +165,7 @@ def test_the_command_writes_the_table_that_the_package_reads(
     monkeypatch.setattr("windswept.levels.pair_table.make_pair_table", pair_table)
     write_pair_table(tmp_path / "again.npz")
     shipped = Path(write_pair_table.__defaults__[0])  # type: ignore[index]
-    assert (tmp_path / "again.npz").read_bytes() == shipped.read_bytes()
-    with np.load(shipped) as stored:
-        assert sorted(stored) == sorted(PairTable.__slots__)
+    # Python's versions write the heads of a zip file in their own ways; the numbers are the same.
+    with np.load(shipped) as stored, np.load(tmp_path / "again.npz") as again:
+        assert sorted(stored) == sorted(PairTable.__slots__) == sorted(again)
+        assert all(np.array_equal(stored[name], again[name]) for name in stored)

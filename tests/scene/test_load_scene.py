@@ -151,7 +151,7 @@ def test_example_is_a_forest_edge_with_a_gust_across_the_view() -> None:
     for x, low, high in ((-45.0, 2.5, 4.0), (45.0, 7.0, 9.0)):
         arrival = gust.start + (x - gust.position[0]) * math.cos(gust.azimuth) / gust.speed
         assert low < arrival < high
-    assert scene.frame_count == 204
+    assert scene.frame_count == 168
 
 
 def test_species_file_relative_to_the_scene_file(tmp_path: Path) -> None:

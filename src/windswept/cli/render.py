@@ -80,6 +80,9 @@ def command(
     if duration is not None:
         scene = replace(scene, duration=duration)
     figures = render_scene(scene, output, size, at, levels, level_colours, gpu=gpu, multibody=multibody)
+    if figures.get("clamped"):
+        line = "forces and speeds were held back: no number, or too large to be meant"
+        click.echo(f"windswept: {figures['clamped']:,} {line}", err=True)
     if as_json:
         click.echo(json.dumps(figures))
 
@@ -98,7 +101,11 @@ def start(
     say: Callable[[str], None],
     multibody: bool = False,
 ) -> Simulation | GpuSimulation:
-    """The scene in motion on the CPU, or on the card if that is asked for and it has the memory."""
+    """The scene in motion on the CPU, or on the card if that is asked for and it can."""
+    if gpu and (scene.colonies or scene.field is not None):
+        line = "underbrush and force fields are not simulated on the card; simulating on the CPU"
+        click.echo(f"windswept: {line}", err=True)
+        gpu = False
     if not gpu:
         return Simulation(scene, levels=levels, picture_height=picture_height, say=say, multibody=multibody)
     from windswept.gpu.springs.kinds import grown_kinds

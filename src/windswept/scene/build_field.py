@@ -89,8 +89,8 @@ def _build_grid(source: str, form: FieldForm, size: float) -> Grid:
     cell = (form.cell_m, form.cell_m, form.layer_m)
     nx, ny, nz = (max(math.ceil(a / c - 1e-9) + 1, 4) for a, c in zip(lengths, cell, strict=True))
     if nx * ny * nz > MOST_NODES:
-        coarser = form.cell_m * math.sqrt(nx * ny * nz / MOST_NODES)
-        expected = f"at least {coarser:.2g} for a field of at most {MOST_NODES:,} nodes, not {nx * ny * nz:,}"
+        coarser = math.ceil(102.0 * form.cell_m * math.sqrt(nx * ny * nz / MOST_NODES)) / 100.0
+        expected = f"at least {coarser:g} for a field of at most {MOST_NODES:,} nodes, not {nx * ny * nz:,}"
         raise InputError(source, "field.cell_m", form.cell_m, expected)
     return Grid((west, south), cell, (nx, ny, nz))
 

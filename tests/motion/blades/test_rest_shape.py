@@ -161,3 +161,9 @@ def test_a_blade_without_thickness_is_refused_in_one_line() -> None:
         build_chain(ones, np.array([1.0, 0.0, 1.0]), ones, ones, ones, name="leaf")
     with pytest.raises(InputError, match=r"blade: section 2, mass = 0\.0"):
         build_chain(ones, ones, np.array([1.0, 1.0, 0.0]), ones, ones)
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf])
+def test_a_load_that_is_no_number_is_refused(wrong: float) -> None:
+    with pytest.raises(InputError, match="a finite force"):
+        rest_shape(uniform(5), np.array([0.0, wrong, 0.0]))

@@ -83,6 +83,17 @@ def test_two_components_of_one_name_and_a_parent_below(tmp_path: Path) -> None:
         load_underbrush(path)
 
 
+def test_components_hang_at_most_eight_deep(tmp_path: Path) -> None:
+    path = tmp_path / "weed.toml"
+    chain = [STEM.replace('"stem"', f'"s{k + 1}"\nparent = "s{k}"') for k in range(8)]
+    text = HEAD + STEM.replace('"stem"', '"s0"')
+    path.write_text(text + "".join(chain[:7]))
+    load_underbrush(path)
+    path.write_text(text + "".join(chain))
+    with pytest.raises(InputError, match=r"component\[8\]\.parent = 's7': expected at most 8 components"):
+        load_underbrush(path)
+
+
 def test_a_name_that_means_nothing() -> None:
     with pytest.raises(InputError, match="did you mean white_clover"):
         load_underbrush("white_clove")

@@ -98,7 +98,9 @@ class MeadowDrawing:
             sharpness: who looks.
         """
         before = self._seen_from
-        if before is None or not np.array_equal(before.planes, sharpness.planes):
+        if before is None or (
+            before.pixels != sharpness.pixels or not np.array_equal(before.planes, sharpness.planes)
+        ):
             self._wanted, self._seen_from = blade_list(self.rows, sharpness, self._rules), sharpness
             self._items.reserve(len(self._wanted.items))
             self._items.write(self._wanted.items)

@@ -255,11 +255,11 @@ def _pairs(low: Doubles, high: Doubles) -> NDArray[np.uint32]:
 
 def _chunks(blades: Blades, ground: Ground) -> tuple[Ints, Doubles]:
     """First blade of every chunk of a set, and (C, 4) balls round them."""
-    place = from_tiles(blades.constants[:, PLACE : PLACE + 2])[: blades.count].astype(np.float64)
+    place = from_tiles(blades.constants[:, PLACE : PLACE + 3])[: blades.count].astype(np.float64)
     first = np.arange(0, blades.count, CHUNK, dtype=np.int32)
     low, high = np.minimum.reduceat(place, first), np.maximum.reduceat(place, first)
-    flat = 0.5 * (low + high)
+    middle = 0.5 * (low + high)
+    middle[:, 2] += ground_height(ground, *middle[:, :2].T)
     reach = float(blades.kind.table.length.sum() * blades.size.max())
-    middle = np.concatenate([flat, ground_height(ground, *flat.T)[:, None]], axis=1)
     radius = 0.5 * np.linalg.norm(high - low, axis=1) + reach
     return first, np.concatenate([middle, radius[:, None]], axis=1)

@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from windswept.errors import InputError
 from windswept.motion.blades.chain import Chain, weight_share
 from windswept.motion.blades.newton import pose_chain, settle
 from windswept.motion.rods import Doubles
@@ -57,6 +58,8 @@ def rest_shape(
         broken: (K,) joints that broke before; None for none.
     """
     force = np.asarray(load, np.float64)
+    if not np.isfinite(force).all():
+        raise InputError("rest shape", "load", float(force[~np.isfinite(force)][0]), "a finite force (N)")
     if force.ndim == 1:
         force = weight_share(chain)[:, None] * force
     gone = np.zeros(chain.section_count, np.bool_) if broken is None else broken.copy()

@@ -35,6 +35,10 @@ def load_underbrush(source: str | Path) -> UnderbrushSpecies:
     return species
 
 
+MOST_DEPTH = 8
+"""Components that one blade may carry one on another; the drawing poses them depth by depth."""
+
+
 def _find(source: str | Path) -> Path:
     """Path of the file that a name or path means."""
     if isinstance(source, Path) or source.lower().endswith(".toml") or "/" in source or "\\" in source:
@@ -48,6 +52,7 @@ def _find(source: str | Path) -> Path:
 def _check_parents(source: str, species: UnderbrushSpecies) -> None:
     """Raise InputError for a name given twice, and for a parent that does not come before what it carries."""
     known: list[str] = []
+    depth: dict[str, int] = {}
     for number, component in enumerate(species.component):
         place = f"component[{number}]"
         if component.name in known:
@@ -56,5 +61,9 @@ def _check_parents(source: str, species: UnderbrushSpecies) -> None:
             expected = (
                 f"a component above it ({', '.join(known)})" if known else "no parent on the first component"
             )
+            raise InputError(source, f"{place}.parent", component.parent, expected)
+        depth[component.name] = depth.get(component.parent, -1) + 1
+        if depth[component.name] >= MOST_DEPTH:
+            expected = f"at most {MOST_DEPTH} components one on another"
             raise InputError(source, f"{place}.parent", component.parent, expected)
         known.append(component.name)
