@@ -9,7 +9,7 @@ kept without dimensions, so that it serves links of any size:
 with k_p the parent's stiffness, F the force on the leaf, L the distance from the parent's joint to the child's tip,
 and I the pair's inertia about the parent's joint.
 
-Run ``python -m windswept.levels.pair_table`` to make the table again, to the same bytes.
+Run ``python -m windswept.levels.pair_table`` to make the table again, to the same numbers.
 """
 
 from __future__ import annotations
