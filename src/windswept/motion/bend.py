@@ -171,70 +171,34 @@ def _bend_tile(c, place, i, before, u, v, weights, after, out):  # type: ignore[
 
 
 @njit(cache=True, fastmath=FAST_MATH)
-def _bend_block(  # type: ignore[no-untyped-def]
-    first, last, constants, place, tip_x, tip_y, scale, mean, waves, gusts, time, weights, before, after
-):
-    """Tiles first..last: the wind at all their tips, then one tile after the other."""
+def _bend_block(block, start, end, scene):  # type: ignore[no-untyped-def]
+    """A block of the tiles start..end: the wind at all their tips, then one tile after the other."""
+    constants, place, tip_x, tip_y, scale, mean, waves, gusts, time, weights, before, after = scene
+    first = start + block * BLOCK
+    last = min(first + BLOCK, end)
     rows = slice(first * WIDTH, last * WIDTH)
     u, v = air_at_reference(tip_x[rows], tip_y[rows], mean, waves, gusts, time)
+    shares = weights[0], weights[1]
     for tile in range(first, last):
         in_block, i = np.uintp(tile - first) * _W, np.uintp(tile) * _W
         air_u, air_v = load(u, in_block), load(v, in_block)
         push = sqrt(air_u * air_u + air_v * air_v + _TINY) * load(scale, i)
         b_u, b_v = air_u * push, air_v * push
-        _bend_tile(constants[tile], place, i, before, b_u, b_v, weights, after, np.uintp(tile) * _POSE)
+        _bend_tile(constants[tile], place, i, before, b_u, b_v, shares, after, np.uintp(tile) * _POSE)
 
 
 @njit(parallel=True, cache=True, fastmath=FAST_MATH)
-def _bend_tiles(  # type: ignore[no-untyped-def]
-    start, end, constants, place, tip_x, tip_y, scale, mean, waves, gusts, time, weights, before, after
-):
+def _bend_tiles(start, end, scene):  # type: ignore[no-untyped-def]
     """Blocks of tiles over the threads."""
     for block in prange((end - start + BLOCK - 1) // BLOCK):
-        first = start + block * BLOCK
-        last = min(first + BLOCK, end)
-        _bend_block(
-            first,
-            last,
-            constants,
-            place,
-            tip_x,
-            tip_y,
-            scale,
-            mean,
-            waves,
-            gusts,
-            time,
-            weights,
-            before,
-            after,
-        )
+        _bend_block(block, start, end, scene)
 
 
 @njit(cache=True, fastmath=FAST_MATH)
-def _bend_tiles_alone(  # type: ignore[no-untyped-def]
-    start, end, constants, place, tip_x, tip_y, scale, mean, waves, gusts, time, weights, before, after
-):
+def _bend_tiles_alone(start, end, scene):  # type: ignore[no-untyped-def]
     """Blocks of tiles on this thread."""
     for block in range((end - start + BLOCK - 1) // BLOCK):
-        first = start + block * BLOCK
-        last = min(first + BLOCK, end)
-        _bend_block(
-            first,
-            last,
-            constants,
-            place,
-            tip_x,
-            tip_y,
-            scale,
-            mean,
-            waves,
-            gusts,
-            time,
-            weights,
-            before,
-            after,
-        )
+        _bend_block(block, start, end, scene)
 
 
 class Bender:
@@ -248,7 +212,7 @@ class Bender:
     def __init__(self, branches: Branches, weights: str = "beam") -> None:
         self.branches = branches
         first, second = WEIGHTS[weights]
-        self._weights = _F(first), _F(second - first)
+        self._weights = np.array([first, second - first], np.float32)
         self._row, self._level_tile = _rows(branches)
         self._constants, self._place = _pack(branches, self._row, int(self._level_tile[-1]))
         self._tip = np.zeros((3, len(self._place)), np.float32)
@@ -290,25 +254,23 @@ class Bender:
             height = profile_factor(wind.profile, self.branches.tip[:, 2])
             self._scale[self._row] = self.branches.flexibility * height * height
             self._profile = wind.profile
-        waves, gusts = wave_rows(wind, time), wind.gust_rows
+        scene = (
+            self._constants,
+            self._place,
+            self._tip[0],
+            self._tip[1],
+            self._scale,
+            np.array(wind.mean.vector),
+            wave_rows(wind, time),
+            wind.gust_rows,
+            time,
+            self._weights,
+            before.reshape(-1),
+            after.reshape(-1),
+        )
         for start, end in pairwise(level_tile.tolist()):
             bend_tiles = _bend_tiles if end - start > ALONE else _bend_tiles_alone
-            bend_tiles(
-                start,
-                end,
-                self._constants,
-                self._place,
-                self._tip[0],
-                self._tip[1],
-                self._scale,
-                wind.mean.vector,
-                waves,
-                gusts,
-                time,
-                self._weights,
-                before.reshape(-1),
-                after.reshape(-1),
-            )
+            bend_tiles(start, end, scene)
 
 
 _GROUND = np.concatenate([np.outer([0.0, 1.0, 2.0, 3.0], [1.0, 0.0, 0.0]).ravel(), [0.0, 1.0, 0.0]])
