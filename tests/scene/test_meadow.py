@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from windswept.scene.load_scene import build_scene
+from windswept.scene.meadow_air import MeadowAir
 from windswept.scene.scene import Scene
 from windswept.scene.simulation import Simulation
 from windswept.wind.mean import MeanWind
@@ -127,10 +128,7 @@ def test_the_wind_grid_is_the_wind_at_its_nodes() -> None:
     scene = turf(wind={"speed_m_s": 5.0, "turbulence": 0.3})
     simulation = Simulation(scene)
     assert simulation.meadow is not None
-    meadow = simulation.meadow
-    meadow.sample_air(Wind(mean=MeanWind(3.0, 0.4)), None, 1.0)
-    air = meadow._air
-    assert air is not None
+    (air,) = MeadowAir(simulation.meadow.beds).sample(Wind(mean=MeanWind(3.0, 0.4)), None, 1.0)
     nodes = air.nodes.reshape(-1, 8)
     assert np.hypot(nodes[:, 0], nodes[:, 1]).max() < 3.0, "below 10 m it blows less"
     np.testing.assert_allclose(np.arctan2(nodes[:, 1], nodes[:, 0])[1:], 0.4, rtol=1e-5)

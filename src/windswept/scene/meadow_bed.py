@@ -52,6 +52,11 @@ class Bed:
     """Whether it stands in the scene's force field; otherwise it feels the wind alone."""
 
     @property
+    def air(self) -> int:
+        """Which of the fields of ``MeadowAir.sample`` it feels."""
+        return int(self.in_field)
+
+    @property
     def count(self) -> int:
         """Number of blades of all kinds."""
         return sum(blades.count for blades in self.blades)

@@ -7,13 +7,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from windswept.levels import Eye, outside_view
+from windswept.levels import Eye
 from windswept.motion import TIME_STEP
 from windswept.plants.plant import Floats, Plant
 from windswept.plants.pose import Pose
-from windswept.scene.camera import view_at
+from windswept.scene.eye_at import eye_at
 from windswept.scene.grow_kinds import grow_kinds
-from windswept.scene.meadow import Meadow
+from windswept.scene.meadow import Meadow, plant_meadow
+from windswept.scene.meadow_bed import Bed
 from windswept.scene.moving_kind import MovingKind
 from windswept.scene.scene import Scene
 from windswept.wind.field import Field, start_field, step_field
@@ -34,6 +35,8 @@ class Simulation:
         say: told of each plant that is grown and compiled.
         multibody: whether plants at level 0 are moved by `multibody`; with levels it is the first of them, and
             errors are against it.
+        beds: the scene's underbrush at rest; None plants it.
+        aspect: width of the picture over its height.
     """
 
     def __init__(
@@ -45,19 +48,22 @@ class Simulation:
         picture_height: int = 720,
         say: Callable[[str], None] = lambda line: None,
         multibody: bool = False,
+        beds: tuple[Bed, ...] | None = None,
+        aspect: float = 16.0 / 9.0,
     ) -> None:
         self.scene = scene
         self.wind = scene.wind
         """May be replaced while the simulation runs, as the viewer's sliders do."""
         self.eye: Eye | None = None
         """Who looks; None for the scene's own camera."""
-        self._pixels, self._picture_height = pixels, picture_height
+        self._pixels, self._picture_height, self._aspect = pixels, picture_height, aspect
         grown = grow_kinds(scene, say) if plants is None else plants
         self.kinds = [
             MovingKind(plant, placements, scene.terrain, levels, multibody=multibody)
             for plant, placements in zip(grown, scene.placements, strict=True)
         ]
-        self.meadow = Meadow(scene, picture_height, say) if scene.colonies else None
+        planted = plant_meadow(scene, picture_height, say) if beds is None else beds
+        self.meadow = Meadow(planted) if planted else None
         """The scene's underbrush; None where there is none."""
         self.field = None if scene.field is None else start_field(scene.field, scene.wind)
         """The scene's force field; None where there is none."""
@@ -122,18 +128,7 @@ class Simulation:
     def change_levels(self, at_once: bool = False) -> None:
         """Lets every placement go to the level that the camera asks for."""
         now = self.step_count * TIME_STEP
-        eye = self.eye
-        if eye is None:
-            view = view_at(self.scene.camera, now)
-            forward = (view.target - view.eye) / np.linalg.norm(view.target - view.eye)
-            eye = Eye(
-                view.eye,
-                view.fov_y,
-                self._picture_height,
-                self._pixels,
-                forward=forward,
-                measures=(outside_view,),
-            )
+        eye = self.eye or eye_at(self.scene.camera, now, self._picture_height, self._aspect, self._pixels)
         for kind in self.kinds:
             kind.change_levels(eye, now, at_once)
 
