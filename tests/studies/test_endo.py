@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from windswept.scene.meadow import Meadow
+from windswept.scene.meadow import Meadow, plant_meadow
 from windswept.studies.endo import EVERY_BLADE, FLOWER_STEMS, LEAVES, _count, endo, flower_field, tufts_for
 from windswept.studies.endo_pictures import bending
 
 
 def test_two_hundred_flowers_with_a_thousand_leaves() -> None:
-    meadow = Meadow(flower_field(), EVERY_BLADE)
+    meadow = Meadow(plant_meadow(flower_field(), EVERY_BLADE))
     assert _count(meadow, FLOWER_STEMS) == pytest.approx(200, rel=0.1)
     assert _count(meadow, LEAVES) == pytest.approx(1000, rel=0.1)
 

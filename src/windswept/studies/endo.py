@@ -19,7 +19,7 @@ from windswept.gpu.device import adapter_summary
 from windswept.motion import TIME_STEP
 from windswept.render.staging import frame_now, stage
 from windswept.scene.load_scene import build_scene
-from windswept.scene.meadow import Meadow
+from windswept.scene.meadow import Meadow, plant_meadow
 from windswept.scene.scene import Scene
 from windswept.scene.simulation import WIND_INTERVAL, Simulation
 from windswept.studies.machine import median_seconds
@@ -80,7 +80,7 @@ def flower_field() -> Scene:
 
 def tufts_for(blades: int) -> int:
     """How many tufts of fescue have so many blades."""
-    few = Meadow(grass_field(30), EVERY_BLADE)
+    few = Meadow(plant_meadow(grass_field(30), EVERY_BLADE))
     return max(round(blades * 30 / few.blade_count), 1)
 
 
