@@ -9,6 +9,7 @@ import pytest
 from windswept.gpu import layouts
 from windswept.gpu.plant_drawing import LEAF_BATCH, STEM_BATCH
 from windswept.gpu.wiring import SHADER_SETS, shader_module, shader_text
+from windswept.motion.multibody.constants import RATE_LEAD
 from windswept.motion.shapes import MAX_ANGLE
 
 WGSL_TYPES = {
@@ -97,6 +98,10 @@ def test_no_set_takes_more_buffers_than_a_browser_gives(name):
 )
 def test_constants_of_the_motion_agree_with_the_shader(line):
     assert line in shader_source("motion")
+
+
+def test_constants_of_coupled_links_agree_with_the_shader():
+    assert f"const RATE_LEAD = {RATE_LEAD};" in shader_source("multibody_types")
 
 
 def test_uniform_tables_are_as_long_as_their_layouts_say():

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from handmade import build_plant, random_tree, straight
+from windswept.levels.maximal_wind import maximal_wind
+from windswept.levels.measure import followed_tips, tip_positions
 from windswept.motion import (
     Model,
     Stepper,
@@ -22,6 +24,7 @@ from windswept.motion.multibody import CoupledState, MultibodyStepper, constants
 from windswept.motion.multibody.plain import energy, kinematics, mass_matrix, step_multibody_plain
 from windswept.motion.sweeps import joint_torque
 from windswept.plants.plant import Material
+from windswept.plants.sources import grow_source
 from windswept.studies.bench_plants import plant_with_links
 from windswept.studies.mujoco_tree import mujoco_frequencies, mujoco_tree
 from windswept.studies.multibody_against_mujoco import compare, swaying_air
@@ -201,6 +204,25 @@ def test_two_minutes_of_storm_stay_finite() -> None:
         before = after
     assert np.isfinite(state.joints).all()
     assert np.abs(state.joints[:, :, ::2]).max() < 1.6
+
+
+def test_limp_stalks_whip_as_they_do_at_a_finer_step() -> None:
+    # Stiff joints at the trapezoidal rule's limit: their rates must not flip from step to step and feed the motion.
+    model = build_model(grow_source("wheat", 1))
+    air, tips = maximal_wind(model), followed_tips(model, 60)
+
+    def tips_in_wind(finer: int) -> np.ndarray:
+        fine = replace(model, time_step=model.time_step / finer)
+        level, seen = replace(finest_level(fine), coupled=True), []
+        stepper, state = MultibodyStepper(fine), coupled_rest(fine, 8)
+        for k in range(120):
+            stepper.step(state, air(level, k / 30), air(level, (k + 1) / 30), 4 * finer)
+            seen.append(tip_positions(fine, level, state, tips))
+        return np.array(seen)
+
+    usual, fine = tips_in_wind(1), tips_in_wind(8)
+    sway = np.sqrt(np.mean((fine - fine.mean(axis=0)) ** 2))
+    assert np.sqrt(np.mean((usual - fine) ** 2)) < 0.02 * sway
 
 
 def test_a_broken_number_is_not_mistaken_for_rest() -> None:

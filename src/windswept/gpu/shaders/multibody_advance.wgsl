@@ -27,8 +27,9 @@ fn advance(column: Column) {
         carried[kept] = settled(carried[kept] + pace.x * vec4f(here.along, 0.0));
         let b_gain = pace.x * cross(here.turn, joint.direction);
         carried[kept + stride] = settled(carried[kept + stride] + vec4f(b_gain, 0.0));
-        let after = clamp(before.xz + pace.x * (before.yw + pace.y * rise), vec2f(-MAX_ANGLE), vec2f(MAX_ANGLE));
-        let rate = before.yw + pace.x * rise;
+        let gained = pace.y * rise;
+        let after = clamp(before.xz + pace.x * (before.yw + gained), vec2f(-MAX_ANGLE), vec2f(MAX_ANGLE));
+        let rate = before.yw + gained + RATE_LEAD * gained;
         state[column.state + i * stride] = settled(vec4f(after.x, rate.x, after.y, rate.y));
     }
 }

@@ -26,6 +26,7 @@ const CARRIED = 2u;  // rows of a link that last: velocity of its joint, m/s; ra
 const RECORD = 4u;   // rows of a link within a step, see multibody_descend.wgsl and multibody_ascend.wgsl
 const SLOT = 7u;     // rows of a depth within a walk
 const REST_THRESHOLD = 1e-9;
+const RATE_LEAD = 0.5;  // as in motion/multibody/constants.py
 const TINY = 1e-30;
 
 // What a lane walks over: its links, where its numbers lie, and how far apart.

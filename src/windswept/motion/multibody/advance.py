@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 
 from windswept.motion.lanes import FAST_MATH, WIDTH, clamped, load, settled, store
-from windswept.motion.multibody.constants import MAX_ANGLE, REACH, REST_THRESHOLD
+from windswept.motion.multibody.constants import MAX_ANGLE, RATE_LEAD, REACH, REST_THRESHOLD
 from windswept.motion.multibody.descend import RECORD
 from windswept.motion.registers import load3, store3
 from windswept.motion.rotation import add_scaled, cross, dot
@@ -17,6 +17,7 @@ _F = np.float32
 _W = np.uintp(WIDTH)
 _THREE = np.uintp(3 * WIDTH)
 _LIMIT: Any = _F(MAX_ANGLE)
+_LEAD: Any = _F(RATE_LEAD)
 _THRESHOLD: Any = _F(REST_THRESHOLD)
 
 MOTION = np.uintp(9 * WIDTH)
@@ -63,8 +64,9 @@ def gain(carried, at, acceleration, step):  # type: ignore[no-untyped-def]
 
 @njit(fastmath=FAST_MATH, forceinline=True)
 def _move(joints, at, rise, step, ahead):  # type: ignore[no-untyped-def]
-    """One angle and its rate by an acceleration that is held over the step."""
+    """One angle and its rate by an acceleration that is held over the step; see RATE_LEAD."""
     rate = load(joints, at + _W)
-    angle = load(joints, at) + (rate + rise * ahead) * step
+    gained = rise * ahead
+    angle = load(joints, at) + (rate + gained) * step
     store(joints, at, settled(clamped(angle, _LIMIT), _THRESHOLD))
-    store(joints, at + _W, settled(rate + rise * step, _THRESHOLD))
+    store(joints, at + _W, settled(rate + gained + gained * _LEAD, _THRESHOLD))

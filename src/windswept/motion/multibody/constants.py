@@ -22,6 +22,12 @@ REST_THRESHOLD = 1e-9
 """Angles, rates and velocities below this are put to rest: dying motion must not end in denormals."""
 SETTLING = 0.3
 """How fast links forget what they carry that no motion of their joints accounts for, 1/s."""
+RATE_LEAD = 0.5
+"""How far a joint's rate goes on from the middle of a step, as a share of what it gained up to there.
+
+At 1, as the trapezoidal rule has it, the rates of stiff joints flip sign from step to step for ever, and with them
+the pose that the next step is reckoned in. Angles and carried velocities, and so the energy, know nothing of it.
+"""
 MOST_WARPED = 2.0
 """Angle of a plant's first mode in a step, rad, beyond which its frequency is no longer kept (Nyquist is pi)."""
 

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from windswept.motion.model import Model
-from windswept.motion.multibody.constants import forces_at, joint_lag, warped_step
+from windswept.motion.multibody.constants import RATE_LEAD, forces_at, joint_lag, warped_step
 from windswept.motion.rods import Doubles
 from windswept.plants.air import reconfiguration
 
@@ -118,7 +118,8 @@ def step_multibody_plain(
     rise = np.linalg.solve(matrix, torque)
     carried = carried + (moving.velocity + ahead * moving.jacobian @ rise - carried) * (step / ahead)
     rise = rise.reshape(-1, 2)
-    return angles + step * (rates + ahead * rise), rates + step * rise, carried
+    middle = rates + ahead * rise
+    return angles + step * middle, middle + RATE_LEAD * ahead * rise, carried
 
 
 def drag_plain(model: Model, moving: Kinematics, wind: Doubles) -> tuple[Doubles, Doubles]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from windswept.motion.lanes import WIDTH
 from windswept.motion.model import Model
+from windswept.motion.multibody.constants import RATE_LEAD
 from windswept.motion.multibody.coupled_state import coupled_rest, link_velocities
 from windswept.motion.multibody.stepper import MultibodyStepper
 from windswept.motion.rods import Doubles
@@ -52,12 +53,12 @@ def _carried_gain(model: Model, link: int, impulse: Doubles, along: float) -> Do
 def _rate_gain(model: Model, joints: Floats, carried: Floats, link: int, gain: Doubles) -> Floats:
     """(L, 2) gain of all joint rates from what one link carries more, by a step too short for anything else.
 
-    Half the difference of two such steps, with and without: a step goes as far beyond the rates nearest to what is
-    carried as the old ones were before them.
+    From the difference of two such steps, with and without: a step goes on beyond the rates nearest to what is
+    carried (RATE_LEAD).
     """
     pair = coupled_rest(model, 2)
     pair.joints[0, ..., :2], pair.carried[0, ..., :2] = joints[..., None], carried[..., None]
     pair.carried[0, link, :, 1] += gain
     calm = np.zeros((2, len(model.probe_position), 3), np.float32)
     MultibodyStepper(replace(model, time_step=MOMENT)).step(pair, calm, calm)
-    return 0.5 * (pair.velocities(1) - pair.velocities(0))
+    return (pair.velocities(1) - pair.velocities(0)) / (1.0 + RATE_LEAD)
