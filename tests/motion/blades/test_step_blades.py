@@ -154,6 +154,26 @@ def test_gusts_do_not_feed_the_motion(grass: BladeKind) -> None:
     assert np.abs(state.rate).max() < 1e-3
 
 
+@pytest.mark.parametrize("turn", [0.9, 1.1, 1.3])
+def test_a_swing_too_fast_for_the_steps_settles_in_the_wind(grass: BladeKind, turn: float) -> None:
+    # Near half a turn in a step and beyond it, the velocity that a step begins with says nothing of the swing.
+    frequency = np.array([turn, 1.5 * turn]) * np.pi / TIME_STEP
+    kind = replace(
+        grass, frequency=frequency, damping_ratio=0.02, drag=0.01, weight=0.0, breaking_lean=np.inf
+    )
+    blades, count = meadow(kind), 21
+    state, frame, size = rest_blades(blades), blades.frame.astype(float), blades.size.astype(float)
+    plain = PlainState(np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count, bool))
+    velocity = air(count, 5.0, 1.5, 0.0)
+    for _ in range(40):
+        step_in_given(blades, state, velocity)
+        plain = step_plain(kind, frame, size, plain, velocity, np.zeros((count, 3)), TIME_STEP)
+    np.testing.assert_allclose(state.lean, plain.lean, atol=2e-5)
+    step_in_given(blades, state, velocity, None, 600)
+    force = drag_of_air(kind, np.einsum("bij,bj->bi", frame, velocity)) * size[:, None] ** -1.5
+    np.testing.assert_allclose(state.lean, lean_of_load(force), atol=2e-6)
+
+
 def test_air_damps_a_swing(grass: BladeKind) -> None:
     # y'' + omega^2 y = -c |y'| y' swings less and less: 1 / amplitude grows by 4 c omega / (3 pi) a second.
     kind = replace(grass, damping_ratio=0.0, weight=0.0, drag_share=np.array([1.0, 1.0, 1.0]))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from windswept.motion.blades.constraint import constraint_step
+from windswept.motion.blades.constraint import constraint_step, resolves
 from windswept.motion.blades.kind import BladeKind
 from windswept.motion.lanes import WIDTH
 from windswept.motion.model import TIME_STEP
@@ -170,9 +170,9 @@ def pack_blades(
     rows[:, AXIS : AXIS + 3] = frame[:, 0]
     rows[:, NORMAL : NORMAL + 3] = frame[:, 1]
     rows[:, DRAG] = kind.drag * size**-1.5
-    rows[:, REACH] = kind.reach[0] * size
     for column, frequency in ((FLAT_STEP, kind.frequency[0]), (SIDE_STEP, kind.frequency[1])):
         rows[:, column : column + 4] = constraint_step(
             frequency / np.sqrt(size), kind.damping_ratio, time_step
         )
+    rows[:, REACH] = kind.reach[0] * size * resolves(rows[:, FLAT_STEP : FLAT_STEP + 4])
     return to_tiles(rows)

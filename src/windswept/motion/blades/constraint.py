@@ -33,3 +33,13 @@ def constraint_step(frequency: Doubles, damping_ratio: float, time_step: float) 
     return np.column_stack(
         [decay * (1.0 + turned), decay * time_step, -decay * frequency * turned, decay * (1.0 - turned)]
     )
+
+
+def resolves(step: Doubles) -> np.ndarray:
+    """(n,) whether steps (n, 4) are less than a quarter of a turn of the swing.
+
+    Air damps by the velocity that a blade has when a step begins. Over a quarter of a turn that is no longer its
+    velocity in the step; from half a turn on, where ``vx`` changes its sign, it would feed the swing. A blade that
+    swings so fast is left to its own damping, which ends the swing within a few steps.
+    """
+    return np.asarray(step[:, 0] + step[:, 3] > 0.0)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from windswept.motion.blades.constraint import constraint_step
+from windswept.motion.blades.constraint import constraint_step, resolves
 from windswept.motion.blades.field import PackedField
 from windswept.motion.blades.kind import BladeKind, bending_lean
 from windswept.motion.blades.lean import lean_of_load
@@ -57,7 +57,7 @@ def step_plain(
     steps = [
         constraint_step(omega / np.sqrt(size), kind.damping_ratio, time_step) for omega in kind.frequency
     ]
-    reach = size[:, None] * np.concatenate([[0.0], kind.reach])
+    reach = (size * resolves(steps[0]))[:, None] * np.concatenate([[0.0], kind.reach])
     moving = np.einsum("bi,bij->bj", reach * state.rate, frame)
     damping = -2.0 * kind.drag * softer * reach[:, 1] * steps[0][:, 2]
     speed = np.linalg.norm(velocity - moving, axis=1)
