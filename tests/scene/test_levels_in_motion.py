@@ -105,28 +105,32 @@ def test_a_camera_that_jumps_is_followed(aspens: tuple[Scene, list[Plant]]) -> N
     assert all(np.isfinite(s.state.joints).all() for s in kind.sets)
 
 
-def lone_oak() -> tuple[Scene, list[Plant]]:
-    """An oak in a turbulent breeze."""
-    scene = load_scene("california_black_oak")
-    return replace(scene, wind=replace(scene.wind, gusts=())), [grow("california_black_oak", 0)]
+def lone(species: str) -> tuple[Scene, list[Plant]]:
+    """A tree in a turbulent breeze."""
+    scene = load_scene(species)
+    return replace(scene, wind=replace(scene.wind, gusts=())), [grow(species, 0)]
 
 
 @pytest.mark.slow
-def test_a_lone_plant_near_the_camera_is_cut_branch_by_branch_without_a_jump() -> None:
-    scene, plants = lone_oak()
+@pytest.mark.parametrize(
+    ("species", "tolerance", "multibody"), [("california_black_oak", 2.0, False), ("sugar_maple", 8.0, True)]
+)
+def test_a_lone_plant_near_the_camera_is_cut_branch_by_branch_without_a_jump(
+    species: str, tolerance: float, multibody: bool
+) -> None:
+    scene, plants = lone(species)
     runs = []
     for levels in (True, False):
-        simulation = Simulation(scene, plants, levels=levels, pixels=2.0)
+        simulation = Simulation(scene, plants, levels=levels, pixels=tolerance, multibody=multibody)
         kind = simulation.kinds[0]
         simulation.advance(1.0)
         before, track, cuts = None, [], 0
         for frame in range(120):
-            simulation.eye = Eye(
-                np.array([0.0, -9.0 - 0.05 * frame, 3.0], np.float32), float(FOV), HEIGHT, tolerance=2.0
-            )
+            position = np.array([0.0, -9.0 - 0.05 * frame, 3.0], np.float32)
+            simulation.eye = Eye(position, float(FOV), HEIGHT, tolerance=tolerance)
             simulation.advance(1.0 / 60.0)
             own = kind.near.get(0)
-            cuts += own is not None and own is not before
+            cuts += own is not None and own is not before and own.level.coupled == multibody
             before = own
             track.append(simulation.pose[0].position[0, ::7].astype(np.float64))
         runs.append(np.array(track))

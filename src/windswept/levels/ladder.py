@@ -20,9 +20,9 @@ TYPICAL_TO_95 = 2.0
 """95th percentile over standard deviation of the mismatch."""
 DECOUPLED_SHARE = 0.02
 """Reckoned error of `springs` against `multibody`, as a share of a swaying plant's whole motion."""
-COUPLED_RUNGS = 1
-"""Finest cuts of the hierarchy that are also rungs of `multibody`: every link, since merged ones on coupled links can
-gain energy in the hardest winds (docs/decisions/multibody.md)."""
+COUPLED_RUNGS = 3
+"""Finest cuts of the hierarchy that are also rungs of `multibody`: coarser ones lose what coupling gains
+(docs/decisions/multibody.md)."""
 COUPLED_COST = 2.75
 """Time of a coupled link over that of a link of `springs`, as measured."""
 
