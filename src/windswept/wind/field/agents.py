@@ -21,7 +21,7 @@ WATER = 1000.0
 AIR = 1.2
 """kg/m^3."""
 RAIN_TICK = 1.0 / 30.0
-"""Drops are counted over so long, s, whatever the step: the same rain at any frame rate."""
+"""Drops are counted over so long, s, whatever the step: the same drops fall at any frame rate."""
 FADE = 1.0
 """A helicopter's jet comes and goes within this, s."""
 STEP_PLANTED = 0.6
@@ -156,10 +156,15 @@ class Rain:
         return self.rate / 3.6e6 / (math.pi / 6.0 * (1e-3 * self.drop) ** 3)
 
     def acts(self, start: float, stop: float, shape: tuple[int, int], area: float) -> Sequence[Act]:
-        """The drops of the tick in which the step ends; see ``Agent``."""
-        if not self.start <= stop <= self.end:
+        """The drops that fall in the step, those of a tick evenly over it; see ``Agent``."""
+        begin, end = max(start, self.start), min(stop, self.end)
+        if begin >= end:
             return ()
-        return (Shower(_drops(self, math.floor(stop / RAIN_TICK + 1e-6), shape, area)),)
+        pressure = np.zeros(shape, np.float32)
+        for tick in range(math.floor(begin / RAIN_TICK + 1e-6), math.ceil(end / RAIN_TICK - 1e-6)):
+            within = min(end, (tick + 1) * RAIN_TICK) - max(begin, tick * RAIN_TICK)
+            pressure += np.float32(within / (stop - start)) * _drops(self, tick, shape, area)
+        return (Shower(pressure),)
 
 
 @lru_cache(maxsize=4)

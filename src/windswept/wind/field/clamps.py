@@ -7,7 +7,7 @@ from dataclasses import dataclass
 MAX_SPEED = 100.0
 """No air is faster, m/s: beyond the strongest tornadoes' wind near the ground."""
 MAX_PUSH = 1e5
-"""No body presses harder, N/m^2: three times a walker's foot."""
+"""No body presses harder, N/m^2: 4.6 times the sole on which a walker of 70 kg stands."""
 
 
 @dataclass(slots=True)
@@ -25,10 +25,3 @@ class Clamps:
     def total(self) -> int:
         """All of them."""
         return self.speeds + self.pushes + self.lost
-
-    def words(self) -> str:
-        """One line for a person."""
-        return (
-            f"field: {self.speeds} speeds held at {MAX_SPEED:g} m/s, {self.pushes} pushes held at "
-            f"{MAX_PUSH:g} N/m^2, {self.lost} agents left out that were no number"
-        )

@@ -24,7 +24,7 @@ LONGEST_STEP = 0.05
 
 
 def step_field(field: Field, seconds: float, agents: Sequence[Agent] = ()) -> Field:
-    """Lets time pass.
+    """Lets time pass; then bodies press as they do at the end, and rain as it did on the mean.
 
     Args:
         field: changed in place and returned.
@@ -38,17 +38,19 @@ def step_field(field: Field, seconds: float, agents: Sequence[Agent] = ()) -> Fi
         raise InputError("field", "seconds", seconds, "a time above 0 s")
     count = math.ceil(seconds / LONGEST_STEP - 1e-9)
     begin = field.time
+    rain = np.zeros(field.plan.grid.shape[:2], np.float32)
     for n in range(count):
-        _step(field, begin + (n + 1) * seconds / count, (*field.plan.agents, *agents))
+        stop = begin + (n + 1) * seconds / count
+        acts = _acts(field, (*field.plan.agents, *agents), stop)
+        rain += _rain(field, acts) / np.float32(count)
+        _step(field, stop, acts, rain)
     return field
 
 
-def _step(field: Field, stop: float, agents: Sequence[Agent]) -> None:
-    """One step up to a time."""
-    grid, start = field.plan.grid, field.time
-    seconds = stop - start
+def _step(field: Field, stop: float, acts: Sequence[Act], rain: Floats) -> None:
+    """One step up to a time, in which rain presses with (nx, ny) N/m^2."""
+    grid, seconds = field.plan.grid, stop - field.time
     field.time = stop
-    acts = _acts(field, agents, start, stop)
     field.ambient = sample_ambient(grid, field.wind, stop)
     field.profile = profile_factor(field.wind.profile, grid.heights).astype(np.float32)
     _blow(field, [act for act in acts if isinstance(act, Jet)])
@@ -74,7 +76,7 @@ def _step(field: Field, stop: float, agents: Sequence[Agent]) -> None:
         boxes,
         np.array([*grid.origin, *grid.cell], np.float32),
         np.float32(seconds),
-        _rain(field, acts),
+        rain,
         np.float32(MAX_SPEED),
         field.departure,
         field.velocity,
@@ -84,11 +86,11 @@ def _step(field: Field, stop: float, agents: Sequence[Agent]) -> None:
     field.clamps.speeds += int(clamped.sum())
 
 
-def _acts(field: Field, agents: Sequence[Agent], start: float, stop: float) -> list[Act]:
-    """What all agents do in a step."""
+def _acts(field: Field, agents: Sequence[Agent], stop: float) -> list[Act]:
+    """What all agents do in the step up to a time."""
     nx, ny, _ = field.plan.grid.shape
     area = field.plan.grid.cell[0] * field.plan.grid.cell[1]
-    return [act for agent in agents for act in agent.acts(start, stop, (nx, ny), area)]
+    return [act for agent in agents for act in agent.acts(field.time, stop, (nx, ny), area)]
 
 
 def _rain(field: Field, acts: Sequence[Act]) -> Floats:
