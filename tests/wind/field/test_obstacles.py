@@ -51,6 +51,14 @@ def _beside_air(solid: np.ndarray) -> np.ndarray:
     return near
 
 
+@pytest.mark.parametrize(("radius", "half_height"), [(3.0, 3.0), (5.0, 4.0), (2.0, 3.0)])
+def test_the_centre_of_a_spheroid_is_deep_inside(radius: float, half_height: float) -> None:
+    ball = Spheroid((0.0, 0.0, 4.0), radius, half_height)
+    assert ball.distance(np.zeros(1), np.zeros(1), np.full(1, 4.0)) == -min(radius, half_height)
+    grid = Grid((-6.0, -6.0), (1.0, 1.0, 1.0), (13, 13, 12))
+    assert openness(grid, [ball])[6, 6, 4] == 0.0
+
+
 def test_beside_a_tall_cylinder_the_flow_is_the_potential_one() -> None:
     # U (1 + R^2/r^2) across the flow and U (1 - R^2/r^2) along it: the cylinder is as high as the field.
     wide = Grid((-60.0, -60.0), (1.0, 1.0, 1.0), (121, 121, 5))

@@ -33,7 +33,9 @@ class Spheroid:
         edges = np.array([self.radius, self.radius, self.half_height]).reshape(3, *[1] * (offset.ndim - 1))
         level = np.linalg.norm(offset / edges, axis=0)
         slope = np.linalg.norm(offset / edges**2, axis=0)
-        return level * (level - 1.0) / np.maximum(slope, 1e-9)
+        first_order = level * (level - 1.0) / np.maximum(slope, 1e-9)
+        # At the centre all directions lead out: there the formula is 0 / 0.
+        return np.where(level > 1e-9, first_order, -edges.min())
 
     def extent(self, azimuth: float) -> tuple[float, float]:
         """Half of its size along and across a direction, m."""
