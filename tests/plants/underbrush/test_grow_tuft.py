@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -104,7 +105,7 @@ def test_what_no_tuft_can_be() -> None:
     with pytest.raises(InputError, match="seed = -1"):
         grow_tuft(species, -1)
     crowd = [c.model_copy(update={"count": 200}) for c in species.component]
-    with pytest.raises(BudgetError, match="20,000 blades"):
+    with pytest.raises(BudgetError, match=r"^heather: more than 20,000 blades in a tuft$"):
         grow_tuft(species.model_copy(update={"component": crowd}))
     tuft = grow_tuft(load_underbrush("giant_reed"))
     flat = replace(tuft.kinds[1], bending_stiffness=0.0 * tuft.kinds[1].bending_stiffness)
@@ -112,3 +113,15 @@ def test_what_no_tuft_can_be() -> None:
         InputError, match=r"giant_reed: blade\.bending_stiffness = 0\.0: expected a number above 0"
     ):
         replace(tuft, kinds=(tuft.kinds[0], flat)).validate()
+
+
+def test_too_many_blades_are_refused_before_there_is_room_for_them() -> None:
+    # 1,000 flowers of 1,000 rays each, the most that a file may ask for, would take gigabytes.
+    species = load_underbrush("oxeye_daisy")
+    crowd = [c.model_copy(update={"count": 1000, "count_v": 0}) for c in species.component]
+    tracemalloc.start()
+    with pytest.raises(BudgetError, match=r"^oxeye_daisy: more than 20,000 blades in a tuft$"):
+        grow_tuft(species.model_copy(update={"component": crowd}))
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 64e6

@@ -41,10 +41,8 @@ def grow_tuft(species: UnderbrushSpecies, seed: int = 0) -> Tuft:
         rng = np.random.default_rng([seed, zlib.crc32(component.name.encode())])
         above = names.index(component.parent) if component.parent else -1
         parents = np.arange(start[above], start[above + 1]) if above >= 0 else np.array([-1])
-        columns.append(_sprout(component, kind, parents, rng))
+        columns.append(_sprout(species, kind, parents, MOST_BLADES - int(start[kind]), rng))
         start[kind + 1] = start[kind] + len(columns[-1][0])
-        if start[kind + 1] > MOST_BLADES:
-            raise BudgetError(f"{species.name}: more than {MOST_BLADES:,} blades in a tuft")
     kind_of, parent, attach, root, frame, size = (
         np.concatenate(column) for column in zip(*columns, strict=True)
     )
@@ -87,14 +85,18 @@ def carrying(species: UnderbrushSpecies) -> tuple[Blade, ...]:
 
 
 def _sprout(
-    component: Component, kind: int, parents: np.ndarray, rng: np.random.Generator
+    species: UnderbrushSpecies, kind: int, parents: np.ndarray, room: int, rng: np.random.Generator
 ) -> list[np.ndarray]:
-    """Columns of Tuft for the blades of one component on all its parents."""
+    """Columns of Tuft for the blades of one component on all its parents, of which there may be as many as room."""
+    component = species.component[kind]
     columns: list[list[np.ndarray]] = []
     for parent in parents:
         count = component.count
         if component.count_v:
             count = max(1, count + int(rng.integers(-component.count_v, component.count_v + 1)))
+        room -= count
+        if room < 0:
+            raise BudgetError(f"{species.name}: more than {MOST_BLADES:,} blades in a tuft")
         frame = _frames(component, count, rng)
         attach = np.linspace(component.attach_from, component.attach_to, count)
         root = np.zeros((count, 3))
