@@ -67,9 +67,11 @@ class MeadowMotion:
     """How the blades of a meadow lean at one moment."""
 
     lanes: tuple[Floats, ...]
-    """``BladeState.lanes`` of every kind that moves, bed after bed."""
+    """``BladeState.lanes`` of every kind that moves, bed after bed; none where ``leans`` holds them."""
     ahead: float
     """Seconds since the last step; leans go on at their rate."""
+    leans: Any = None
+    """Buffer of the same, where that is already on the card: nothing of it is uploaded."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,7 +37,7 @@ SAMPLES = 4
 SHADOW_REACH = (20.0, 120.0)
 """Least and greatest distance from the camera to which shadows are drawn, m; twice that of its target if between."""
 PICTURE_FORMAT = "rgba8unorm-srgb"
-STAGES = ("curves", "shadows", "blades", "picture")
+STAGES = ("choose", "curves", "shadows", "blades", "picture")
 """Of a frame, as they are timed."""
 
 
@@ -178,6 +178,8 @@ class Renderer:
             self.meadow.upload(frame.meadow, Sharpness(eye, scene_view.planes, float(pixels)))
         self._balls.upload(frame.balls)
         encoder = self._device.create_command_encoder()
+        if self.meadow is not None and frame.meadow is not None:
+            self.meadow.choose(encoder, self._times.around("choose"))
         around = self._times.around("curves")
         self.posing.encode(encoder, self._frame_group, wanted, frame.motion, around)
         self._encode_shadows(encoder, wanted)

@@ -3,7 +3,8 @@
 ::
 
     beds   --meadow_rows--> MeadowRows   meadow_rows.py: tables, borders and blades, uploaded once
-    eye    --blade_list-->  BladeList    blade_list.py: which blades are drawn, with how many sections
+    eye    --BladeChoice--> items, indirect arguments   blade_choice.py, shaders/blade_choice.wgsl: which blades are
+                                         drawn, with how many sections; blade_list.py is the plain formula
     leans  --MeadowDrawing-->  picture   meadow_drawing.py, shaders/blades_pose.wgsl and blades.wgsl
 """
 

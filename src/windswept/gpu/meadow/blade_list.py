@@ -1,4 +1,4 @@
-"""Eye -> which blades are posed and drawn, and with how many sections: the meadow's only choice made per frame.
+"""Eye -> which blades are posed and drawn, and with how many sections: the plain formula of ``BladeChoice``.
 
 A picture depends only on where the eye is, without memory. Blades that are finer than a pixel allows are left out by
 their chance, the others are drawn as much wider and the last of them thin (``widening`` in ``blades_pose.wgsl``), so
@@ -48,6 +48,10 @@ class Sharpness:
     pixels: float
     """Of 1 m at a distance of 1 m."""
 
+    def same_as(self, other: Sharpness) -> bool:
+        """Whether both see the same."""
+        return self.pixels == other.pixels and np.array_equal(self.planes, other.planes)
+
 
 @dataclass(frozen=True, slots=True)
 class BladeList:
@@ -60,23 +64,25 @@ class BladeList:
     draws: tuple[tuple[int, int, int], ...]
     """First posed joint, number of blades and their sections, for every number of sections."""
     joint_count: int
-    sets_seen: NDArray[np.bool_]
-    """(S,) which sets have blades among them."""
 
 
-def blade_list(rows: MeadowRows, sharpness: Sharpness, rules: BladeRules) -> BladeList:
+def blade_list(rows: MeadowRows, sharpness: Sharpness, rules: BladeRules, room: float = np.inf) -> BladeList:
     """Choose blades and lay out their posed joints.
 
     Args:
         rows: what the card holds.
         sharpness: who looks.
         rules: what may be spent.
+        room: posed joints that there is room for; where they are too many, all chunks go to the next coarser level.
     """
     level = _chosen_levels(rows, sharpness, rules)
     chosen = np.flatnonzero(_chosen(rows, sharpness, rules))
     chosen = chosen[np.argsort(rows.depth[chosen], kind="stable")]
     chunk = rows.chunk[chosen]
     sections = rows.sections[rows.chunk_set[chunk], level[chunk]]
+    while (sections + 1).sum() > room and level.min() < LEVELS - 1:
+        level = np.minimum(level + 1, LEVELS - 1)
+        sections = rows.sections[rows.chunk_set[chunk], level[chunk]]
     order = np.argsort(sections, kind="stable")
     joints = sections[order] + 1
     first = np.empty(len(chosen), np.int64)
@@ -90,14 +96,11 @@ def blade_list(rows: MeadowRows, sharpness: Sharpness, rules: BladeRules) -> Bla
     items[:, 3] = np.where(parent < 0, NONE, carrier[parent])
     kinds, starts, counts = np.unique(sections[order], return_index=True, return_counts=True)
     firsts = first[order][starts] if len(chosen) else first
-    seen = np.zeros(len(rows.set_size), np.bool_)
-    seen[rows.chunk_set[chunk]] = True
     return BladeList(
         items=items,
         depth_counts=tuple(np.bincount(rows.depth[chosen], minlength=1).tolist()),
         draws=tuple(zip(firsts.tolist(), counts.tolist(), kinds.tolist(), strict=True)),
         joint_count=int(joints.sum()),
-        sets_seen=seen,
     )
 
 

@@ -1,4 +1,4 @@
-"""Holds the blades of a meadow on the card, poses those in sight and draws them."""
+"""Holds the blades of a meadow on the card, chooses and poses those in sight and draws them."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import wgpu
 
-from windswept.gpu import layouts
-from windswept.gpu.buffers import UNIFORM, UNIFORM_STRIDE, GrowingBuffer, filled, room
+from windswept.gpu.buffers import UNIFORM_STRIDE, check_size, filled, room
 from windswept.gpu.frame import Ground, MeadowMotion
-from windswept.gpu.meadow.blade_list import BladeList, BladeRules, Sharpness, blade_list
+from windswept.gpu.meadow.blade_choice import MOST_DEPTH, BladeChoice
+from windswept.gpu.meadow.blade_list import BladeRules, Sharpness
 from windswept.gpu.meadow.layouts import MEADOW_PASS, POSED_JOINT
 from windswept.gpu.meadow.meadow_rows import MeadowRows, meadow_rows
 from windswept.gpu.wiring import (
@@ -30,11 +30,8 @@ from windswept.scene.meadow_bed import Bed
 
 BATCH = 64
 """Of ``blades.wgsl``."""
-WORKGROUP, ROW = 64, 65536
-"""Threads of a workgroup, and of a row of workgroups, of ``blades_pose.wgsl``."""
-MOST_DEPTH = 8
-"""Blades that hang on one another; a species file has at most 16 components."""
-MOST_DRAWS = 16
+MOST_JOINTS = 1 << 22
+"""That one frame poses: 128 MiB, which every adapter binds; where more are in sight, blades get fewer sections."""
 _LEAN = np.dtype("<f4")
 
 
@@ -49,6 +46,9 @@ class MeadowDrawing:
         frame_layout: layout of bind group 0.
         light_layout: layout of bind group 2.
         picture: colour format and samples of a pixel.
+
+    Raises:
+        GraphicsError: the card has too little memory.
     """
 
     def __init__(
@@ -61,8 +61,9 @@ class MeadowDrawing:
         light_layout: Any,
         picture: tuple[str, int],
     ) -> None:
-        self._device, self._rules = device, rules
+        self._device = device
         self.rows: MeadowRows = meadow_rows(beds, ground)
+        check_size(device, self.rows.blades.nbytes)
         self._pose_layout = buffers_layout(device, COMPUTE, *[READ] * 6, WRITE, DYNAMIC_UNIFORM)
         self._draw_layout = buffers_layout(device, DRAWING, READ, DYNAMIC_UNIFORM)
         constants = {"LAST_NORM": LAST_NORM}
@@ -74,97 +75,84 @@ class MeadowDrawing:
         self._tables = filled(device, self.rows.tables)
         self._runs = filled(device, self.rows.runs)
         self._borders = filled(device, self.rows.borders)
-        self._leans = room(device, _LEAN, sum(self.rows.state_sizes))
-        self._items = GrowingBuffer(device, np.dtype(layouts.COUNTS))
-        self._posed = GrowingBuffer(device, POSED_JOINT)
-        self._passes = device.create_buffer(size=UNIFORM_STRIDE * (MOST_DEPTH + MOST_DRAWS), usage=UNIFORM)
+        joints = min(most_joints(self.rows), MOST_JOINTS)
+        self._posed = room(device, POSED_JOINT, joints)
+        self.choice = BladeChoice(device, self.rows, rules, joints)
         self._strips = {
             sections: filled(device, strip_triangles(sections), wgpu.BufferUsage.INDEX)
-            for sections in np.unique(self.rows.sections).tolist()
+            for sections in self.choice.section_numbers
         }
-        self._wanted: BladeList | None = None
-        self._seen_from: Sharpness | None = None
+        self._own_leans: Any = None
+        self._seen: tuple[MeadowMotion, Sharpness] | None = None
 
     @property
     def drawn_count(self) -> int:
-        """Blades that the last frame drew."""
-        return 0 if self._wanted is None else len(self._wanted.items)
+        """Blades that the last frame drew, read back."""
+        return 0 if self._seen is None else self.choice.chosen_count
 
     def upload(self, motion: MeadowMotion, sharpness: Sharpness) -> None:
-        """Choose what is drawn and send how it leans.
+        """Take what the next frame shows.
 
         Args:
-            motion: leans of all sets that move.
+            motion: leans of all sets that move; sent to the card where they are not there.
             sharpness: who looks.
         """
-        before = self._seen_from
-        if before is None or (
-            before.pixels != sharpness.pixels or not np.array_equal(before.planes, sharpness.planes)
-        ):
-            self._wanted, self._seen_from = blade_list(self.rows, sharpness, self._rules), sharpness
-            self._items.reserve(len(self._wanted.items))
-            self._items.write(self._wanted.items)
-            self._posed.reserve(self._wanted.joint_count)
-        assert self._wanted is not None
-        self._write_passes(self._wanted, motion.ahead, sharpness.pixels)
+        self._seen = motion, sharpness
+        if motion.leans is not None:
+            return
+        if self._own_leans is None:
+            self._own_leans = room(self._device, _LEAN, sum(self.rows.state_sizes))
         first = 0
         for lanes, size in zip(motion.lanes, self.rows.state_sizes, strict=True):
-            self._device.queue.write_buffer(self._leans, 4 * first, lanes)
+            self._device.queue.write_buffer(self._own_leans, 4 * first, lanes)
             first += size
 
-    def _write_passes(self, wanted: BladeList, ahead: float, pixels: float) -> None:
-        """One row for each dispatch, then one for each draw."""
-        now = ahead, pixels, self._rules.width_pixels, self._rules.reach
-        firsts = np.cumsum([0, *wanted.depth_counts])
-        rows = np.zeros((MOST_DEPTH + MOST_DRAWS, UNIFORM_STRIDE), np.uint8)
-        items = [
-            (slot, first, n, 0)
-            for slot, (first, n) in enumerate(zip(firsts, wanted.depth_counts, strict=False))
-        ]
-        items += [
-            (MOST_DEPTH + slot, first, count, 2 * (sections + 1))
-            for slot, (first, count, sections) in enumerate(wanted.draws)
-        ]
-        for slot, first, count, vertices in items:
-            row = np.zeros(1, MEADOW_PASS)
-            row["items"], row["now"] = (first, count, vertices, 0), now
-            rows[slot, : MEADOW_PASS.itemsize] = row.view(np.uint8)
-        self._device.queue.write_buffer(self._passes, 0, rows)
+    def choose(self, encoder: Any, timestamps: dict[str, Any]) -> None:
+        """Record the choice of what is posed and drawn."""
+        if self._seen is not None:
+            motion, sharpness = self._seen
+            self.choice.record(encoder, sharpness, motion.ahead, timestamps)
 
     def encode(self, compute_pass: Any) -> None:
         """Record the dispatches that pose what is drawn, parents first; bind groups 0 and 2 are set."""
-        if self._wanted is None or not len(self._wanted.items):
+        if self._seen is None:
             return
+        leans = self._seen[0].leans
         group = bind(
             self._device,
             self._pose_layout,
             self._blades,
-            self._items.buffer,
-            self._leans,
+            self.choice.items,
+            self._own_leans if leans is None else leans,
             self._tables,
             self._runs,
             self._borders,
-            self._posed.buffer,
+            self._posed,
             self._pass_binding(),
         )
         compute_pass.set_pipeline(self._pose)
-        for slot, count in enumerate(self._wanted.depth_counts):
-            compute_pass.set_bind_group(1, group, [slot * UNIFORM_STRIDE])
-            compute_pass.dispatch_workgroups(-(-min(count, ROW) // WORKGROUP), -(-count // ROW))
+        for depth in range(self.choice.depths):
+            compute_pass.set_bind_group(1, group, [depth * UNIFORM_STRIDE])
+            compute_pass.dispatch_workgroups_indirect(self.choice.plan, 12 * depth)
 
     def draw(self, render_pass: Any) -> None:
         """Record the draws into the picture; bind group 0 is set."""
-        if self._wanted is None:
+        if self._seen is None:
             return
-        group = bind(self._device, self._draw_layout, self._posed.buffer, self._pass_binding())
+        group = bind(self._device, self._draw_layout, self._posed, self._pass_binding())
         render_pass.set_pipeline(self._draw)
-        for slot, (_, count, sections) in enumerate(self._wanted.draws):
-            render_pass.set_bind_group(1, group, [(MOST_DEPTH + slot) * UNIFORM_STRIDE])
+        for row, sections in enumerate(self.choice.section_numbers):
+            render_pass.set_bind_group(1, group, [(MOST_DEPTH + row) * UNIFORM_STRIDE])
             render_pass.set_index_buffer(self._strips[sections], "uint32")
-            render_pass.draw_indexed(6 * sections * min(BATCH, count), -(-count // BATCH))
+            render_pass.draw_indexed_indirect(self.choice.plan, 4 * (3 * MOST_DEPTH + 5 * row))
 
     def _pass_binding(self) -> dict[str, Any]:
-        return {"buffer": self._passes, "offset": 0, "size": MEADOW_PASS.itemsize}
+        return {"buffer": self.choice.passes, "offset": 0, "size": MEADOW_PASS.itemsize}
+
+
+def most_joints(rows: MeadowRows) -> int:
+    """Joints of all blades with all their sections."""
+    return int((np.diff(rows.chunk_first) * (rows.sections[rows.chunk_set].max(axis=1) + 1)).sum())
 
 
 def strip_triangles(sections: int) -> Ints:

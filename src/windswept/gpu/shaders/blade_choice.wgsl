@@ -5,6 +5,7 @@
 const NONE = 0xffffffffu;
 const NEAREST = 0.3;       // m
 const CHUNK = 128u;
+const COARSEST = 2u;       // level
 const BATCH = 64u;         // blades in an instance of what is drawn
 const MOST_CARRIED = 16u;
 const MOST_DEPTH = 8u;     // rows of 3 in `plan`, then rows of 5; the last number is that of all joints
@@ -97,8 +98,9 @@ fn plan_poses(depth: u32, first: u32, total: u32) {
     passes[STRIDE * depth + 1u] = bitcast<vec4u>(look.now);
 }
 
-// What is drawn of blades with so many sections.
-fn plan_draw(row: u32, first: u32, total: u32, sections: u32) {
+// What is drawn of blades with so many sections, as far as there is room for their joints.
+fn plan_draw(row: u32, first: u32, chosen: u32, sections: u32) {
+    let total = min(chosen, (max(look.counts.w, first) - first) / (sections + 1u));
     let at = 3u * MOST_DEPTH + 5u * row;
     plan[at] = 6u * sections * min(BATCH, total);
     plan[at + 1u] = (total + BATCH - 1u) / BATCH;
@@ -147,9 +149,21 @@ fn plan_joints(lane: u32, run: vec2u) {
     if lane == 0u { plan[LAST] = first; }
 }
 
+// Takes chunks to the next coarser level while there is no room for all their joints.
+fn make_room(lane: u32, run: vec2u) {
+    for (var coarser = 0u; coarser < COARSEST; coarser++) {
+        var own = 0u;
+        for (var c = run.x; c < run.y; c++) { own += seen[c].z * (chunks[c].sections[seen[c].x] + 1u); }
+        sum_before(lane, own);
+        let more = select(0u, 1u, crew_total() > look.counts.w);
+        for (var c = run.x; c < run.y; c++) { seen[c].x = min(seen[c].x + more, COARSEST); }
+    }
+}
+
 @compute @workgroup_size(256)
 fn plan_all(@builtin(local_invocation_index) lane: u32) {
     let run = run_of(lane, look.counts.x);
+    make_room(lane, run);
     plan_items(lane, run);
     plan_joints(lane, run);
 }

@@ -12,6 +12,6 @@ struct ChoiceLook {
     planes: array<vec4f, 5>,  // of the frustum, positive inside
     rules: vec4f,             // least width, least lengths of a section at the first levels, pixels; reach, m
     now: vec4f,               // that the card hands on in every row of `passes`
-    counts: vec4u,            // chunks; depths; numbers of sections; 0
+    counts: vec4u,            // chunks; depths; numbers of sections; joints that there is room for
     sections: array<vec4u, 4>,
 }

@@ -8,21 +8,23 @@ from typing import Any
 import numpy as np
 import pytest
 
-from windswept.gpu.blades import blade_choice, choice_layouts
-from windswept.gpu.blades.blade_choice import LAST, MOST_DEPTH, BladeChoice
 from windswept.gpu.buffers import UNIFORM_STRIDE
 from windswept.gpu.frame import FLAT_GROUND, Camera
 from windswept.gpu.layouts import COUNTS, REALS
 from windswept.gpu.matrices import camera_matrix, frustum_planes
-from windswept.gpu.meadow import meadow_drawing
+from windswept.gpu.meadow import blade_choice, choice_layouts, meadow_drawing
+from windswept.gpu.meadow.blade_choice import LAST, MOST_DEPTH, BladeChoice
 from windswept.gpu.meadow.blade_list import NEAREST, BladeList, BladeRules, Sharpness, blade_list
 from windswept.gpu.meadow.layouts import MEADOW_PASS
-from windswept.gpu.meadow.meadow_rows import CHUNK, MeadowRows, meadow_rows
+from windswept.gpu.meadow.meadow_rows import CHUNK, LEVELS, MeadowRows, meadow_rows
 from windswept.gpu.wiring import shader_text
 from windswept.scene.load_scene import build_scene
 from windswept.scene.simulation import Simulation
 
 RULES = BladeRules(2.0, (9.0, 4.0), 9.0)
+ROOM = 1 << 20
+GROUP, ROW = 64, 65536
+"""Threads of a workgroup that poses, and of a row of them."""
 EYES = [(0.0, -1.0, 0.4), (2.0, -6.0, 1.5), (0.0, 0.2, 30.0), (40.0, 40.0, 2.0)]
 
 
@@ -47,7 +49,7 @@ def sharpness(eye: tuple[float, float, float]) -> Sharpness:
 def chosen(device: Any, choice: BladeChoice, look: Sharpness) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Items, plan and passes, read back."""
     encoder = device.create_command_encoder()
-    choice.record(encoder, look, 0.004)
+    choice.record(encoder, look, 0.004, {})
     device.queue.submit([encoder.finish()])
     items, plan, passes = (
         np.frombuffer(device.queue.read_buffer(buffer), np.uint32)
@@ -63,7 +65,7 @@ def pass_rows(passes: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("eye", EYES)
 def test_lists_and_indirect_arguments_are_the_cpus(device, rows, eye):
-    choice, look = BladeChoice(device, rows, RULES), sharpness(eye)
+    choice, look = BladeChoice(device, rows, RULES, ROOM), sharpness(eye)
     items, plan, passes = chosen(device, choice, look)
     wanted: BladeList = blade_list(rows, look, RULES)
     np.testing.assert_array_equal(items[: len(wanted.items)], wanted.items)
@@ -72,8 +74,8 @@ def test_lists_and_indirect_arguments_are_the_cpus(device, rows, eye):
     first = 0
     for depth, count in enumerate(wanted.depth_counts):
         groups = plan[3 * depth : 3 * depth + 3].tolist()
-        most = meadow_drawing.ROW
-        assert groups == [-(-min(count, most) // meadow_drawing.WORKGROUP), -(-count // most), 1]
+        most = ROW
+        assert groups == [-(-min(count, most) // GROUP), -(-count // most), 1]
         assert told["items"][depth].tolist() == [first, count, 0, 0]
         first += count
     drawn = {sections: (joint, count) for joint, count, sections in wanted.draws}
@@ -88,6 +90,32 @@ def test_lists_and_indirect_arguments_are_the_cpus(device, rows, eye):
         np.testing.assert_allclose(mine["now"], [0.004, 900.0, RULES.width_pixels, RULES.reach])
 
 
+def test_without_room_for_their_joints_blades_have_fewer_sections(device, rows):
+    look = sharpness(EYES[0])
+    free = blade_list(rows, look, RULES)
+    fewest = blade_list(rows, look, RULES, room=0)
+    between = (free.joint_count + fewest.joint_count) // 2
+    assert fewest.joint_count < between < free.joint_count
+    for room in (between, fewest.joint_count):
+        items, plan, _ = chosen(device, BladeChoice(device, rows, RULES, room), look)
+        wanted = blade_list(rows, look, RULES, room)
+        assert wanted.joint_count <= room
+        np.testing.assert_array_equal(items[: len(wanted.items)], wanted.items)
+        assert plan[LAST] == wanted.joint_count
+
+
+def test_what_has_no_room_at_all_is_neither_drawn_nor_posed(device, rows):
+    look = sharpness(EYES[0])
+    room = blade_list(rows, look, RULES, room=0).joint_count // 2
+    choice = BladeChoice(device, rows, RULES, room)
+    told = pass_rows(chosen(device, choice, look)[2])[MOST_DEPTH:]["items"]
+    ends = told[:, 0] + told[:, 1] * (
+        np.pad(choice.section_numbers, (0, len(told) - len(choice.section_numbers))) + 1
+    )
+    assert 0 < ends[told[:, 1] > 0].max() <= room
+    assert told[:, 1].sum() > 0.4 * len(blade_list(rows, look, RULES).items)
+
+
 def test_eyes_see_many_levels_many_blades_and_none(rows):
     """What the parity above is worth: all levels, blades left out, and an empty list."""
     lists = [blade_list(rows, sharpness(eye), RULES) for eye in EYES]
@@ -99,7 +127,7 @@ def test_eyes_see_many_levels_many_blades_and_none(rows):
 
 
 def test_the_choice_is_the_same_every_time_and_keeps_nothing(device, rows):
-    choice = BladeChoice(device, rows, RULES)
+    choice = BladeChoice(device, rows, RULES, ROOM)
     first = chosen(device, choice, sharpness(EYES[0]))
     chosen(device, choice, sharpness(EYES[1]))
     count = len(blade_list(rows, sharpness(EYES[0]), RULES).items)
@@ -107,6 +135,19 @@ def test_the_choice_is_the_same_every_time_and_keeps_nothing(device, rows):
     np.testing.assert_array_equal(first[0][:count], again[0][:count])
     for a, b in zip(first[1:], again[1:], strict=True):
         np.testing.assert_array_equal(a, b)
+
+
+def test_an_eye_that_stands_chooses_once_and_time_goes_on(device, rows):
+    choice = BladeChoice(device, rows, RULES, ROOM)
+    first = chosen(device, choice, sharpness(EYES[0]))
+    encoder = device.create_command_encoder()
+    choice.record(encoder, sharpness(EYES[0]), 0.007, {})
+    device.queue.submit([encoder.finish()])
+    passes = np.frombuffer(device.queue.read_buffer(choice.passes), np.uint32)
+    later = pass_rows(passes)[: choice.depths]
+    np.testing.assert_allclose(later["now"][:, 0], 0.007)
+    np.testing.assert_array_equal(later["items"], pass_rows(first[2])["items"][: choice.depths])
+    np.testing.assert_array_equal(later["now"][:, 1:], pass_rows(first[2])["now"][: choice.depths, 1:])
 
 
 def test_structs_and_numbers_agree_with_the_shader():
@@ -128,10 +169,12 @@ def test_structs_and_numbers_agree_with_the_shader():
         f"BATCH = {meadow_drawing.BATCH}u;",
         f"MOST_DEPTH = {blade_choice.MOST_DEPTH}u;",
         f"LAST = {LAST}u;",
-        f"GROUP = {meadow_drawing.WORKGROUP}u;",
-        f"ROW = {meadow_drawing.ROW}u;",
+        f"COARSEST = {LEVELS - 1}u;",
+        f"GROUP = {GROUP}u;",
+        f"ROW = {ROW}u;",
         f"STRIDE = {UNIFORM_STRIDE // 16}u;",
     ):
         assert line in text
-    assert blade_choice.MOST_DEPTH == meadow_drawing.MOST_DEPTH
-    assert choice_layouts.MOST_SECTION_NUMBERS == meadow_drawing.MOST_DRAWS
+    pose = shader_text("blades_pose")
+    assert f"@workgroup_size({GROUP})" in pose
+    assert f"id.y * {ROW}u" in pose

@@ -1,4 +1,4 @@
-"""BladeChoice: the blades that a frame poses and draws, chosen on the card as ``blade_list`` does on the CPU."""
+"""BladeChoice: the blades that a frame poses and draws, chosen on the card; ``blade_list`` is the plain formula."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ import numpy as np
 import wgpu
 from numpy.typing import NDArray
 
-from windswept.gpu.blades.choice_layouts import CHOICE_LOOK, CHUNK_ROW, MOST_SECTION_NUMBERS
 from windswept.gpu.buffers import STORAGE, UNIFORM, UNIFORM_STRIDE, filled, room
 from windswept.gpu.failures import card_errors
 from windswept.gpu.kernel import Kernel
 from windswept.gpu.layouts import COUNTS, NONE, WORD
 from windswept.gpu.meadow.blade_list import BladeRules, Sharpness
+from windswept.gpu.meadow.choice_layouts import CHOICE_LOOK, CHUNK_ROW, MOST_SECTION_NUMBERS
+from windswept.gpu.meadow.layouts import MEADOW_PASS
 from windswept.gpu.meadow.meadow_rows import LEVELS, MeadowRows
 
 MOST_DEPTH = 8
@@ -22,6 +23,8 @@ MOST_GROUPS = 65_535
 """Workgroups along x that every adapter takes."""
 LAST = 3 * MOST_DEPTH + 5 * MOST_SECTION_NUMBERS
 """Place of the number of all joints in ``plan``."""
+NOW = MEADOW_PASS.itemsize // 2
+"""Place of the seconds since the last step in a row of ``passes``, bytes."""
 _WORKGROUP = 64
 _PASS = np.dtype("V256")
 """Of ``passes``: a row for every depth, then one for every number of sections."""
@@ -35,23 +38,26 @@ class BladeChoice:
         device: the card.
         rows: the meadow.
         rules: what may be spent on a picture.
+        joints: posed joints that there is room for.
 
     Raises:
         ValueError: blades hang on one another too deep, or have too many different numbers of sections.
         GraphicsError: the card has too little memory.
     """
 
-    def __init__(self, device: Any, rows: MeadowRows, rules: BladeRules) -> None:
-        self._device, self._rules = device, rules
-        self._depths = int(rows.depth.max(initial=0)) + 1
+    def __init__(self, device: Any, rows: MeadowRows, rules: BladeRules, joints: int) -> None:
+        self._device, self._rules, self._joints = device, rules, joints
+        self.depths = int(rows.depth.max(initial=0)) + 1
+        """Rows of ``plan`` that are dispatched, one after the other."""
         self.section_numbers: list[int] = np.unique(rows.sections).tolist()
         """In the order of the draws in ``plan``."""
-        if self._depths > MOST_DEPTH or len(self.section_numbers) > MOST_SECTION_NUMBERS:
+        if self.depths > MOST_DEPTH or len(self.section_numbers) > MOST_SECTION_NUMBERS:
             raise ValueError(
-                f"{self._depths} blades on one another and {len(self.section_numbers)} numbers of sections: "
+                f"{self.depths} blades on one another and {len(self.section_numbers)} numbers of sections: "
                 f"at most {MOST_DEPTH} and {MOST_SECTION_NUMBERS} can be drawn"
             )
         self._chunks = len(rows.chunk_set)
+        self._seen_from: Sharpness | None = None
         with card_errors("the choice of blades"):
             self._resources = self._buffers(rows)
             self._see, self._mark, self._count, self._plan, self._place, self._carry = (
@@ -90,20 +96,31 @@ class BladeChoice:
         """Buffer of ``MEADOW_PASS``, every UNIFORM_STRIDE bytes: one a depth, then one a number of sections."""
         return self._resources["passes"]
 
-    def record(self, encoder: Any, sharpness: Sharpness, ahead: float) -> None:
-        """Records the choice into a command encoder.
+    @property
+    def chosen_count(self) -> int:
+        """Blades that were chosen last, read back."""
+        rows = np.frombuffer(self._device.queue.read_buffer(self.passes), np.uint32)
+        return int(rows.reshape(-1, UNIFORM_STRIDE // 4)[:MOST_DEPTH, 1].sum())
+
+    def record(self, encoder: Any, sharpness: Sharpness, ahead: float, timestamps: dict[str, Any]) -> None:
+        """Records the choice into a command encoder; an eye that stands has chosen already.
 
         Args:
             encoder: takes it; it must be submitted before the next call.
             sharpness: who looks.
             ahead: seconds since the last step, for the poses.
+            timestamps: what the pass is begun with.
         """
+        if self._seen_from is not None and sharpness.same_as(self._seen_from):
+            self._tell(ahead)
+            return
+        self._seen_from = sharpness
         self._device.queue.write_buffer(self._resources["look"], 0, self._look(sharpness, ahead))
         encoder.clear_buffer(self._resources["carriers"])
         encoder.clear_buffer(self._resources["plan"])
         encoder.clear_buffer(self._resources["passes"])
         groups = min(self._chunks, MOST_GROUPS), -(-self._chunks // MOST_GROUPS)
-        compute_pass = encoder.begin_compute_pass()
+        compute_pass = encoder.begin_compute_pass(**timestamps)
         self._see.record(compute_pass, -(-self._chunks // _WORKGROUP))
         self._mark.record(compute_pass, *groups)
         self._count.record(compute_pass, *groups)
@@ -111,6 +128,12 @@ class BladeChoice:
         self._place.record(compute_pass, *groups)
         self._carry.record(compute_pass, *groups)
         compute_pass.end()
+
+    def _tell(self, ahead: float) -> None:
+        """Writes the seconds since the last step where the poses read them."""
+        number = np.array([ahead], np.float32)
+        for depth in range(self.depths):
+            self._device.queue.write_buffer(self.passes, depth * UNIFORM_STRIDE + NOW, number)
 
     def _look(self, sharpness: Sharpness, ahead: float) -> NDArray[np.void]:
         """(1,) ``CHOICE_LOOK``."""
@@ -120,7 +143,7 @@ class BladeChoice:
         row["planes"] = sharpness.planes
         row["rules"] = rules.width_pixels, *rules.section_pixels, rules.reach
         row["now"] = ahead, sharpness.pixels, rules.width_pixels, rules.reach
-        row["counts"] = self._chunks, self._depths, len(self.section_numbers), 0
+        row["counts"] = self._chunks, self.depths, len(self.section_numbers), self._joints
         row["sections"].reshape(-1)[: len(self.section_numbers)] = self.section_numbers
         return row
 

@@ -53,8 +53,15 @@ def whole(device: Any, windy: Simulation) -> Any:
 def posed_joints(renderer: Any) -> np.ndarray:
     """All posed joints, as the card holds them."""
     meadow = renderer.meadow
-    data = renderer.canvas.device.queue.read_buffer(meadow._posed.buffer)
+    data = renderer.canvas.device.queue.read_buffer(meadow._posed)
     return np.frombuffer(data, meadow_layouts.POSED_JOINT)
+
+
+def posed_items(renderer: Any) -> np.ndarray:
+    """(n, 4) what the card has chosen."""
+    meadow = renderer.meadow
+    data = renderer.canvas.device.queue.read_buffer(meadow.choice.items)
+    return np.frombuffer(data, np.uint32).reshape(-1, 4)[: meadow.drawn_count]
 
 
 def joints_of(rows: np.ndarray, item: np.ndarray, sections: int) -> np.ndarray:
@@ -82,8 +89,7 @@ def test_every_struct_has_its_numpy_type() -> None:
 def test_poses_on_the_card_are_those_of_the_processor(whole: Any, windy: Simulation) -> None:
     """Within a thousandth of the blade's length: frames travel in 16 bits."""
     whole.draw(frame_now(windy))
-    posed, meadow = posed_joints(whole), whole.meadow
-    items = meadow._wanted.items
+    posed, items = posed_joints(whole), posed_items(whole)
     assert len(items) == windy.meadow.blade_count  # type: ignore[union-attr]
     ahead = windy.time - windy.step_count / 120.0
     number = 0
@@ -99,10 +105,10 @@ def test_poses_on_the_card_are_those_of_the_processor(whole: Any, windy: Simulat
 
 def test_fewer_sections_have_the_same_tip(device: Any, windy: Simulation, whole: Any) -> None:
     whole.draw(frame_now(windy))
-    fine, fine_items = posed_joints(whole), whole.meadow._wanted.items
+    fine, fine_items = posed_joints(whole), posed_items(whole)
     coarse = stage(windy, SIZE, blade_rules=BladeRules(1e-6, (1e9, 1e9), 1e4))
     coarse.draw(frame_now(windy))
-    few, few_items = posed_joints(coarse), coarse.meadow._wanted.items
+    few, few_items = posed_joints(coarse), posed_items(coarse)
     rows: MeadowRows = coarse.meadow.rows
     leaf = next(n for n, s in enumerate(rows.sections) if s[0] > 4)
     a = fine_items[fine_items[:, 2] // LEVELS == leaf]
@@ -153,7 +159,7 @@ def test_the_area_drawn_stays_as_blades_are_left_out(device: Any, windy: Simulat
     for pixels in (1.5, 4.0):
         renderer = stage(windy, SIZE, blade_rules=BladeRules(pixels))
         renderer.draw(frame_now(windy, view))
-        posed, items = posed_joints(renderer), renderer.meadow._wanted.items
+        posed, items = posed_joints(renderer), posed_items(renderer)
         rows: MeadowRows = renderer.meadow.rows
         leaf = np.bincount(rows.chunk_set[rows.chunk[rows.depth == 0]]).argmax()
         run = rows.runs[leaf * LEVELS + 2]
