@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from windswept.levels import Eye
+from windswept.motion import pose_links, rest_state
 from windswept.plants.plant import Plant
 from windswept.plants.weber_penn import grow
 from windswept.scene.load_scene import load_scene
@@ -103,6 +105,27 @@ def test_a_camera_that_jumps_is_followed(aspens: tuple[Scene, list[Plant]]) -> N
     assert not kind.blends
     assert simulation.stepped_count == near
     assert all(np.isfinite(s.state.joints).all() for s in kind.sets)
+
+
+def test_what_stands_still_is_not_stepped_and_would_not_move(
+    aspens: tuple[Scene, list[Plant]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene, plants = aspens
+    simulation = Simulation(scene, plants, levels=True)
+    bend, still = simulation.kinds[0].sets[-2:]
+    for far in (bend, still):
+        far.add(0, *(part[0, :, :, 0] for part in rest_state(far.level, 1).parts))
+        far.sample_winds(scene.wind, 0.0, 1.0 / 30.0)
+    stepped = []
+    for far in (bend, still):
+        assert far.winds is not None
+        state = far.stepper.step(rest_state(far.level, 1), *far.winds, 4)
+        pose = pose_links(simulation.kinds[0].model, far.level, state).link
+        rest = pose_links(simulation.kinds[0].model, far.level, rest_state(far.level, 1)).link
+        assert np.array_equal(pose, rest) == (far is still)
+        monkeypatch.setattr(far, "stepper", SimpleNamespace(step=lambda *_, far=far: stepped.append(far)))
+        far.step(4, 0, 4)
+    assert stepped == [bend]
 
 
 def lone(species: str) -> tuple[Scene, list[Plant]]:

@@ -35,6 +35,7 @@ class LevelSet:
         self.members: list[int] = [int(m) for m in members]
         """Which placement each slot of the state is."""
         self.state = rest_state(level, len(self.members))
+        self._moves = bool(level.link_count or level.group_constants.any())
         self._placements, self._terrain = placements, terrain
         self._probes: Probes | None = None
         self.winds: tuple[Floats, Floats] | None = None
@@ -93,7 +94,7 @@ class LevelSet:
             self.winds[end][...] += field_at_probes(field, self._probes)
 
     def step(self, count: int, taken: int, interval: int) -> None:
-        """Takes ``count`` inner steps of the interval, of which ``taken`` were taken before."""
-        if self.members and self.winds is not None:
+        """Takes ``count`` inner steps of the interval, after ``taken`` taken before; what stands still takes none."""
+        if self._moves and self.members and self.winds is not None:
             tiles = -(-len(self.members) // WIDTH)
             self.stepper.step(self.state.first_tiles(tiles), *self.winds, count, taken, interval)

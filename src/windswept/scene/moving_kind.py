@@ -84,8 +84,8 @@ class MovingKind:
         if levels and ladder is None:
             ladder = measured_ladder(build_ladder(simplify(self.model), multibody))
         self.ladder = ladder
-        finest = replace(finest_level(self.model), coupled=multibody)
-        rungs = (finest,) if ladder is None else ladder.levels
+        self._finest = finest_level(self.model)
+        rungs = (replace(self._finest, coupled=multibody),) if ladder is None else ladder.levels
         everyone = np.arange(placements.count, dtype=np.int32)
         self.sets = [
             LevelSet(self.model, rung, placements, terrain, everyone[: 0 if k else None])
@@ -231,15 +231,14 @@ class MovingKind:
 
     def _blended(self, time: float, ahead: float) -> Pose:
         """Poses of the placements on their way, with the angles of both levels blended."""
-        finest = finest_level(self.model)
-        mixed = rest_state(finest, len(self.blends))
+        mixed = rest_state(self._finest, len(self.blends))
         for index, (placement, blend) in enumerate(self.blends.items()):
             share = blend.weight(time)
             tile, lane = divmod(index, WIDTH)
             for weight, one in ((1.0 - share, blend.source), (share, blend.target)):
                 angles, velocities = joint_motion_of(self.model, one.level, one.state, one.slot(placement))
                 mixed.joints[tile, :, ::2, lane] += weight * (angles + ahead * velocities)
-        return pose_links(self.model, finest, mixed)
+        return pose_links(self.model, self._finest, mixed)
 
     def wind_speeds(self) -> Floats:
         """(P,) mean wind speed in the crown of every placement, m/s."""
