@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,14 +49,18 @@ def standing_camera(eye: NDArray[np.floating], target: NDArray[np.floating], fov
 
 
 def view_at(camera: Camera, time: float) -> View:
-    """The camera at a time, s: it stands before its first and after its last key.
+    """The camera at a time, s, see ``path_at``."""
+    now = path_at(camera, time)
+    return View(eye=now[0:3].astype(np.float32), target=now[3:6].astype(np.float32), fov_y=float(now[6]))
+
+
+def path_at(camera: Camera, time: float | Doubles) -> Doubles:
+    """(..., 7) eye, target and field of view at times (...,), s: it stands before its first and after its last key.
 
     Between keys it follows monotone cubics (Fritsch and Carlson 1980): no jerk, and no swinging past a key.
     """
     keys = np.concatenate([camera.eye, camera.target, camera.fov_y[:, None]], axis=1).astype(np.float64)
     if len(camera.time) == 1:
-        now = keys[0]
-    else:
-        clamped = np.clip(time, camera.time[0], camera.time[-1])
-        now = PchipInterpolator(camera.time.astype(np.float64), keys)(clamped)
-    return View(eye=now[0:3].astype(np.float32), target=now[3:6].astype(np.float32), fov_y=float(now[6]))
+        return np.broadcast_to(keys[0], (*np.shape(time), 7))
+    clamped = np.clip(time, camera.time[0], camera.time[-1])
+    return np.asarray(PchipInterpolator(camera.time.astype(np.float64), keys)(clamped))
