@@ -8,36 +8,13 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from windswept.cli import COMMANDS, main
-
-SMALL = """
-seed = 1
-[[plant]]
-source = "hazel"
-position = [0.0, 0.0]
-[camera]
-eye = [0.0, -14.0, 2.0]
-target = [0.0, 0.0, 2.0]
-[time]
-duration_s = 0.2
-fps = 10.0
-"""
-
-
-def run(*arguments: object) -> int:
-    """Exit code of a command line."""
-    try:
-        main([str(a) for a in arguments])
-    except SystemExit as end:
-        return int(end.code or 0)
-    return 0
+from command_line import run, write_scene
+from windswept.cli import COMMANDS
 
 
 @pytest.fixture
 def small_scene(tmp_path: Path) -> Path:
-    path = tmp_path / "small.toml"
-    path.write_text(SMALL)
-    return path
+    return write_scene(tmp_path)
 
 
 def test_help_lists_every_command(capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,34 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from windswept.cli import main
-
-SMALL = """
-seed = 1
-[[plant]]
-source = "hazel"
-position = [0.0, 0.0]
-[camera]
-eye = [0.0, -5.0, 2.0]
-target = [0.0, 0.0, 2.0]
-[time]
-duration_s = 0.2
-fps = 10.0
-"""
-
-
-def run(*arguments: object) -> int:
-    """Exit code of a command line."""
-    try:
-        main([str(a) for a in arguments])
-    except SystemExit as end:
-        return int(end.code or 0)
-    return 0
+from command_line import run, write_scene
 
 
 def test_a_scene_is_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    scene, picture = tmp_path / "small.toml", tmp_path / "a.png"
-    scene.write_text(SMALL)
+    scene, picture = write_scene(tmp_path, away=5.0), tmp_path / "a.png"
     assert run("render", scene, "-o", picture, "--size", "320x240", "--multibody", "--json") == 0
     figures = json.loads(capsys.readouterr().out)
     assert figures["placements_by_level"] == [1]
