@@ -18,11 +18,11 @@ SHADER_SETS = {
     "grass": ("types", "light", "meadow", "grass"),
     "blades_pose": ("types", "light", "meadow", "rotation", "blades_types", "blades_light", "blades_pose"),
     "blades": ("types", "blades_types", "blades"),
-    "lean": ("lean_types", "lean"),
+    "lean": ("air_grid", "lean_types", "lean"),
     "blade_choice": ("scan", "blade_choice_types", "blade_choice"),
     "balls": ("types", "light", "rotation", "balls"),
     "sky": ("types", "light", "sky"),
-    "wind": ("motion", "air", "wind"),
+    "wind": ("motion", "air", "air_grid", "wind"),
     "springs": ("motion", "rotation", "springs"),
     "multibody": (
         "motion",

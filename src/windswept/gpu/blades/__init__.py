@@ -10,7 +10,7 @@
 ``Leaning.leans`` is the buffer from which ``shaders/blades_pose.wgsl`` looks poses up.
 """
 
-
+from windswept.gpu.blades.card_meadow import CardMeadow
 from windswept.gpu.blades.leaning import Leaning
 
-__all__ = ["Leaning"]
+__all__ = ["CardMeadow", "Leaning"]

@@ -1,4 +1,4 @@
-"""NumPy types of every struct in ``lean_types.wgsl``, field for field; a test compares them."""
+"""NumPy types of every struct in ``lean_types.wgsl`` and of ``AirGrid``, field for field; a test compares them."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ def air_grids(fields: Sequence[PackedField]) -> NDArray[np.void]:
     for row, field in zip(rows, fields, strict=False):
         grid = field.grid
         row["nodes"] = grid.nodes_x, grid.nodes_y, grid.nodes_z, first
-        row["origin"] = float(grid.origin_x), float(grid.origin_y), 0.0, 0.0
-        row["per_metre"] = float(grid.per_x), float(grid.per_y), float(grid.per_z), 0.0
+        row["origin"][:2] = grid.origin_x, grid.origin_y
+        row["per_metre"][:3] = grid.per_x, grid.per_y, grid.per_z
         first += field.nodes.size // WIDTH
     return rows

@@ -1,5 +1,5 @@
 // The motion of many blades, a lane a blade: motion/blades/step_blades.py on the card.
-// Set: lean_types + lean.
+// Set: air_grid + lean_types + lean.
 //
 // Constants and leans lie in the CPU's tiles of eight blades: a row of a tile is the 32 bytes that a card fetches at
 // once, so nothing that is fetched is wasted and nothing has to be laid out anew.
@@ -79,16 +79,11 @@ fn column(node: u32, part: f32) -> Air {
 
 // The air at x, y and height, trilinear; outside the grid that on its border.
 fn air_at(grid: AirGrid, place: vec3f) -> Air {
-    let most = vec3f(grid.nodes.xyz - 1u);
-    let cells = clamp((place - grid.origin.xyz) * grid.per_metre.xyz, vec3f(0.0), most);
-    let first = min(floor(cells), most - 1.0);
-    let part = cells - first;
-    let cell = vec3u(first);
-    let node = grid.nodes.w + (cell.x * grid.nodes.y + cell.y) * grid.nodes.z + cell.z;
-    let along_y = grid.nodes.z;
-    let along_x = grid.nodes.y * along_y;
-    let near = between(column(node, part.z), column(node + along_y, part.z), part.y);
-    let far = between(column(node + along_x, part.z), column(node + along_x + along_y, part.z), part.y);
+    let cell = cell_of(grid, clamp(in_cells(grid, place), vec3f(0.0), last_cells(grid)));
+    let part = cell.part;
+    let beyond = cell.node + cell.along_x;
+    let near = between(column(cell.node, part.z), column(cell.node + cell.along_y, part.z), part.y);
+    let far = between(column(beyond, part.z), column(beyond + cell.along_y, part.z), part.y);
     return between(near, far, part.x);
 }
 

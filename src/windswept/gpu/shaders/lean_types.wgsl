@@ -10,12 +10,6 @@ struct LeanKind {
     bounds: vec4f,    // how much softer once broken; square of the lean that breaks it; 0; 0
 }
 
-struct AirGrid {
-    nodes: vec4u,     // along x, y and up; first node
-    origin: vec4f,    // m; 0
-    per_metre: vec4f, // nodes in a metre; 0
-}
-
 struct LeanPass {
     steps: vec4u,     // inner steps that are due; 0; 0; 0
 }

@@ -10,10 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windswept.gpu import layouts
+from windswept.gpu.blades import CardMeadow
 from windswept.gpu.device import shared_device
 from windswept.gpu.failures import card_errors
 from windswept.gpu.frame import CardMotion
 from windswept.gpu.springs.air import air_rows
+from windswept.gpu.springs.card_field import CardField
 from windswept.gpu.springs.card_state import CardState
 from windswept.gpu.springs.kinds import GrownKind
 from windswept.gpu.springs.rung_arrays import rung_arrays
@@ -24,10 +26,12 @@ from windswept.levels import Eye, outside_view
 from windswept.motion import TIME_STEP
 from windswept.plants.plant import Floats, Ints
 from windswept.plants.pose import Pose
-from windswept.scene.camera import view_at
+from windswept.scene.eye_at import eye_at
+from windswept.scene.meadow_bed import Bed
 from windswept.scene.moving_kind import BLEND_TIME
 from windswept.scene.scene import Scene
 from windswept.scene.simulation import WIND_INTERVAL
+from windswept.wind.field import start_field, step_field
 
 Stage = Callable[[Any], None]
 """Records its part into a command encoder."""
@@ -42,6 +46,8 @@ class GpuSimulation:
         pixels: error that may be seen, at ``picture_height``.
         picture_height: of the picture, pixels.
         room: bytes that a buffer may have; None for what the adapter takes.
+        beds: its underbrush, planted.
+        aspect: width of the picture over its height.
 
     Raises:
         GraphicsError: no adapter, or one with too little memory.
@@ -57,6 +63,8 @@ class GpuSimulation:
         pixels: float = 1.0,
         picture_height: int = 720,
         room: int | None = None,
+        beds: tuple[Bed, ...] = (),
+        aspect: float = 16.0 / 9.0,
     ) -> None:
         self.scene, self.kinds = scene, kinds
         self.wind = scene.wind
@@ -68,15 +76,21 @@ class GpuSimulation:
         self.step_count = 0
         """Inner steps taken since rest."""
         self._ladders = any(kind.ladder for kind in kinds)
-        self._pixels, self._picture_height = pixels, picture_height
+        self._pixels, self._picture_height, self._aspect = pixels, picture_height, aspect
         self._device = shared_device()
         limit = self._device.limits["max-storage-buffer-binding-size"]
         self._arrays = rung_arrays(kinds, limit if room is None else min(room, limit))
         self.steps_at_once = steps_in_turns(self._device, self._arrays.rungs, self.turns_per_link)
         """Inner steps that one submission takes, at most."""
         seats = first_seats(kinds, self._arrays, self._eye_now())
+        self.field = None if scene.field is None else start_field(scene.field, scene.wind)
+        """The scene's force field, on the CPU; None where there is none."""
+        self.meadow = CardMeadow(self._device, beds) if beds else None
+        """The scene's underbrush; None where there is none."""
         with card_errors("the plants' motion"):
             self.card = CardState(self._device, self._arrays, seats, scene.terrain.heights)
+            self._card_field = CardField(self._device, self.field if kinds else None)
+            self.card.resources |= self._card_field.resources
             self._walk = self._new_walk()
             self.card.write_moment(self._moment(0, 0))
             self._write_wind()
@@ -99,6 +113,8 @@ class GpuSimulation:
                 self._record(
                     *(self._begin_interval() if taken == 0 and self.step_count else ()), self._walk.step
                 )
+                if self.meadow is not None:
+                    self.meadow.step(count)
                 self.step_count += count
         return self
 
@@ -154,6 +170,12 @@ class GpuSimulation:
         return int(self.card.read("tally", "<u4")[2])
 
     @property
+    def clamped_count(self) -> int:
+        """As of ``scene.Simulation``, read back."""
+        held = 0 if self.field is None else self.field.clamps.total
+        return held + (0 if self.meadow is None else self.meadow.clamped_count)
+
+    @property
     def link_count(self) -> int:
         """Links of all placements."""
         return self._arrays.pose_rows
@@ -161,7 +183,8 @@ class GpuSimulation:
     @property
     def stage_milliseconds(self) -> dict[str, float]:
         """How long each stage took on the card when it last ran; empty on a card without a clock."""
-        return self._walk.times.read()
+        blades = {} if self.meadow is None else self.meadow.leaning.times.read()
+        return self._walk.times.read() | blades
 
     def _new_walk(self) -> Walk:
         """The kernels, over what is on the card."""
@@ -173,10 +196,17 @@ class GpuSimulation:
         return [*([self._walk.change_levels] if self._ladders else []), self._walk.sample_wind]
 
     def _write_wind(self) -> None:
-        """Tells the card of the wind in the interval that begins now."""
+        """Tells the card of the wind, and what the force field makes of it, in the interval that begins now."""
         start, stop = self.step_count * TIME_STEP, (self.step_count + WIND_INTERVAL) * TIME_STEP
         if self.card.write_air(air_rows(self.wind, self.scene.terrain, start, stop)):
             self._walk.rebind_wind()
+        if self.field is not None:
+            self.field.wind = self.wind
+            step_field(self.field, stop - self.field.time)
+            if self.kinds:
+                self._card_field.advance(self.field)
+        if self.meadow is not None:
+            self.meadow.sample_air(self.wind, self.field, stop)
 
     def _record(self, *stages: Stage) -> None:
         """Hands stages to the card."""
@@ -187,17 +217,12 @@ class GpuSimulation:
 
     def _eye_now(self) -> Eye:
         """Who looks at this moment."""
-        if self.eye is not None:
-            return self.eye
-        view = view_at(self.scene.camera, self.step_count * TIME_STEP)
-        forward = (view.target - view.eye) / np.linalg.norm(view.target - view.eye)
-        return Eye(
-            view.eye,
-            view.fov_y,
+        return self.eye or eye_at(
+            self.scene.camera,
+            self.step_count * TIME_STEP,
             self._picture_height,
+            self._aspect,
             self._pixels,
-            forward=forward,
-            measures=(outside_view,),
         )
 
     def _moment(self, first: int, end: int) -> NDArray[np.void]:
