@@ -52,9 +52,10 @@ def command(
 ) -> None:
     """Build the simulation levels of SOURCE and measure each against level 0.
 
-    Errors are those of stem tips in gusty wind up to 12 m/s; the bound is the largest error in winds as hard as any
-    up to that speed. A level is good enough from its distance on: there 95 % of errors are within one pixel of a
-    picture 1080 pixels high with a field of view of 60 degrees, and the largest within three.
+    Errors are those of stem tips in gusty wind up to 12 m/s; the bound is a fifth more than the largest error in the
+    hardest winds up to that speed that were tried. A level is good enough from its distance on: there 95 % of errors
+    are within one pixel of a picture 1080 pixels high with a field of view of 60 degrees, and the largest within
+    three.
 
     Example: windswept levels quaking_aspen
     """
