@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
+import wgpu
 from PIL import Image
 
 from windswept.cli import main
 from windswept.errors import GraphicsError
+from windswept.gpu import failures
+from windswept.gpu.blades import leaning
+from windswept.gpu.device import TIMESTAMPS, shared_device
 from windswept.gpu.springs import simulation
 
 
@@ -41,14 +46,72 @@ def test_too_little_memory_is_said_and_the_cpu_goes_on(
     assert picture.exists()
 
 
-def test_underbrush_is_simulated_on_the_cpu_and_said(
+MEADOW = """
+[[plant]]
+source = "common_poppy"
+position = [0.0, 0.0]
+
+[field]
+area = [-1.0, -1.0, 1.0, 1.0]
+cell_m = 0.1
+layer_m = 0.1
+height_m = 0.8
+
+[[field.agent]]
+kind = "ball"
+radius_m = 0.2
+stop = [{ time_s = 0.0, position = [-1.0, 0.0] }, { time_s = 1.0, position = [1.0, 0.0] }]
+
+[camera]
+eye = [0.0, -1.5, 0.6]
+target = [0.0, 0.0, 0.3]
+"""
+
+
+def rendered(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> tuple[dict[str, Any], str]:
+    """Report and stderr of a meadow in a force field with ``--gpu``."""
+    scene, picture = tmp_path / "tuft.toml", tmp_path / "tuft.png"
+    scene.write_text(MEADOW)
+    main(["render", str(scene), "-o", str(picture), "--size", "96x64", "--at", "0.5", "--gpu", "--json"])
+    said = capsys.readouterr()
+    assert picture.exists()
+    return json.loads(said.out), said.err
+
+
+def test_underbrush_and_force_fields_run_on_the_card(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    scene, picture = tmp_path / "tuft.toml", tmp_path / "tuft.png"
-    scene.write_text(
-        '[[plant]]\nsource = "common_poppy"\nposition = [0.0, 0.0]\n'
-        "[camera]\neye = [0.0, -1.5, 0.6]\ntarget = [0.0, 0.0, 0.3]\n"
-    )
-    main(["render", str(scene), "-o", str(picture), "--size", "96x64", "--at", "0.1", "--gpu"])
-    assert "underbrush and force fields are not simulated on the card" in capsys.readouterr().err
-    assert picture.exists()
+    report, said = rendered(tmp_path, capsys)
+    assert "CPU" not in said
+    assert "steps_per_second" not in report
+    assert (report["tufts"], report["plants"], report["clamped"]) == (1, 0, 0)
+    assert report["blades"] > 10
+    if TIMESTAMPS in shared_device().features:
+        assert {"lean", "choose", "blades", "picture"} <= set(report["stage_ms"])
+
+
+def test_blades_without_memory_on_the_card_are_stepped_by_the_cpu(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuses(*_arguments: object, **_named: object) -> None:
+        raise wgpu.GPUOutOfMemoryError("")
+
+    monkeypatch.setattr(leaning, "filled", refuses)
+    report, said = rendered(tmp_path, capsys)
+    assert "too little memory for the blades' motion" in said
+    assert said.count("simulating on the CPU") == 1
+    assert report["steps_per_second"] > 0
+
+
+def test_a_card_that_is_lost_on_the_way_leaves_the_film_to_the_cpu(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def lost(*_arguments: object) -> None:
+        raise wgpu.GPUError("the device is lost")
+
+    monkeypatch.setattr(leaning.Leaning, "step", lost)
+    monkeypatch.setattr(failures.shared_device, "cache_clear", lambda: None, raising=False)
+    report, said = rendered(tmp_path, capsys)
+    assert "the graphics card was lost while stepping plants" in said
+    assert said.count("starting again on the CPU") == 1
+    assert report["steps_per_second"] > 0

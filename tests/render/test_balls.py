@@ -45,7 +45,7 @@ def test_a_ball_rolls_and_does_not_slide(rolling: Simulation) -> None:
     turns = []
     for moment in (0.5, 0.51):
         rolling.time = moment
-        (row,) = balls_now(rolling)
+        (row,) = balls_now(rolling.scene, rolling.time)
         np.testing.assert_allclose(row[:4], [-2.0 + SPEED * moment, 0.0, RADIUS, RADIUS], atol=1e-6)
         turns.append(Rotation.from_quat(row[4:]))
     omega = (turns[1] * turns[0].inv()).as_rotvec() / 0.01
@@ -54,7 +54,7 @@ def test_a_ball_rolls_and_does_not_slide(rolling: Simulation) -> None:
 
 def test_there_is_no_ball_after_its_last_stop(rolling: Simulation) -> None:
     rolling.time = 3.0
-    assert len(balls_now(rolling)) == 0
+    assert len(balls_now(rolling.scene, rolling.time)) == 0
 
 
 def test_it_is_seen_and_throws_a_shadow(rolling: Simulation) -> None:

@@ -15,11 +15,15 @@ from windswept.cli.numbers import SEED, FiniteRange
 from windswept.cli.progress import progress_bar, status_line
 from windswept.errors import GraphicsError, InputError
 from windswept.scene.load_scene import load_scene
+from windswept.scene.meadow import plant_meadow
 from windswept.scene.scene import Scene
 from windswept.scene.simulation import Simulation
 
 if TYPE_CHECKING:
     from windswept.gpu.springs.simulation import GpuSimulation
+    from windswept.plants.plant import Plant
+    from windswept.render.film import Shot, Spent
+    from windswept.scene.meadow_bed import Bed
 
 LARGEST_SIDE = 8192
 """Pixels: what every graphics adapter can draw."""
@@ -96,28 +100,34 @@ def check_multibody(multibody: bool, gpu: bool) -> None:
 def start(
     scene: Scene,
     levels: bool,
-    picture_height: int,
+    size: tuple[int, int],
     gpu: bool,
     say: Callable[[str], None],
     multibody: bool = False,
 ) -> Simulation | GpuSimulation:
-    """The scene in motion on the CPU, or on the card if that is asked for and it can."""
-    if gpu and (scene.colonies or scene.field is not None):
-        line = "underbrush and force fields are not simulated on the card; simulating on the CPU"
-        click.echo(f"windswept: {line}", err=True)
-        gpu = False
+    """The scene in motion on the CPU, or on the card if that is asked for and it can, for pictures of a size."""
+    height, aspect = size[1], size[0] / size[1]
+    beds = plant_meadow(scene, height, say)
     if not gpu:
-        return Simulation(scene, levels=levels, picture_height=picture_height, say=say, multibody=multibody)
+        return Simulation(
+            scene, None, levels, picture_height=height, say=say, multibody=multibody, beds=beds, aspect=aspect
+        )
     from windswept.gpu.springs.kinds import grown_kinds
     from windswept.gpu.springs.simulation import GpuSimulation
 
     kinds = grown_kinds(scene, levels, say)
     try:
-        return GpuSimulation(scene, kinds, picture_height=picture_height)
+        return GpuSimulation(scene, kinds, picture_height=height, beds=beds, aspect=aspect)
     except GraphicsError as error:
         click.echo(f"windswept: {error}; simulating on the CPU", err=True)
-        plants = [kind.plant for kind in kinds]
-        return Simulation(scene, plants, levels=levels, picture_height=picture_height)
+        return _without_card(scene, [kind.plant for kind in kinds], beds, levels, size)
+
+
+def _without_card(
+    scene: Scene, plants: list[Plant], beds: tuple[Bed, ...], levels: bool, size: tuple[int, int]
+) -> Simulation:
+    """The scene in motion on the CPU, with what has been grown and planted already."""
+    return Simulation(scene, plants, levels, picture_height=size[1], beds=beds, aspect=size[0] / size[1])
 
 
 def render_scene(
@@ -132,28 +142,29 @@ def render_scene(
     multibody: bool = False,
 ) -> dict[str, Any]:
     """Simulates and draws a scene with progress on stderr, and says what it took."""
-    from windswept.render.film import PICTURE_ENDINGS, Shot, film_picture, film_video
+    from windswept.render.film import Shot
 
     started = time.perf_counter()
     with status_line("growing plants") as say:
-        simulation = start(scene, levels, size[1], gpu, say, multibody)
+        simulation = start(scene, levels, size, gpu, say, multibody)
     ready = time.perf_counter()
     with progress_bar(f"drawing {output.name}") as progress:
         shot = Shot(size, level_colours, progress)
-        if output.suffix.lower() in PICTURE_ENDINGS:
-            simulating = film_picture(simulation, output, 0.5 * scene.duration if at is None else at, shot)
-        else:
-            simulating = film_video(simulation, output, shot, still)
-    if isinstance(simulation, Simulation):
-        speed: dict[str, Any] = {
-            "tufts": scene.tuft_count,
-            "blades": 0 if simulation.meadow is None else simulation.meadow.blade_count,
-            "clamped": simulation.clamped_count,
-            "steps_per_second": round(simulation.step_count / max(simulating, 1e-9), 1),
-        }
-    else:
-        # The card works on while the CPU goes ahead: only its own clock knows.
-        speed = {"stage_ms": {name: round(ms, 3) for name, ms in simulation.stage_milliseconds.items()}}
+        try:
+            spent = _film(simulation, output, at, shot, still)
+        except GraphicsError as error:
+            if isinstance(simulation, Simulation):
+                raise
+            click.echo(f"windswept: {error}; starting again on the CPU", err=True)
+            beds = () if simulation.meadow is None else simulation.meadow.beds
+            simulation = _without_card(scene, [kind.plant for kind in simulation.kinds], beds, levels, size)
+            spent = _film(simulation, output, at, shot, still)
+    # A card works on while the CPU goes ahead: there only its own clock knows.
+    speed = (
+        {"steps_per_second": round(simulation.step_count / max(spent.simulating, 1e-9), 1)}
+        if isinstance(simulation, Simulation)
+        else {}
+    )
     return {
         "output": str(output),
         "plants": scene.placement_count,
@@ -161,8 +172,27 @@ def render_scene(
         "links": simulation.link_count,
         "stepped": simulation.stepped_count,
         "placements_by_level": simulation.placements_by_level,
+        "tufts": scene.tuft_count,
+        "blades": 0 if simulation.meadow is None else simulation.meadow.blade_count,
+        "clamped": simulation.clamped_count,
         "simulated_s": round(simulation.time, 3),
         **speed,
+        "stage_ms": {name: round(ms, 3) for name, ms in spent.stage_milliseconds.items()},
         "grow_seconds": round(ready - started, 2),
         "draw_seconds": round(time.perf_counter() - ready, 2),
     }
+
+
+def _film(
+    simulation: Simulation | GpuSimulation,
+    output: Path,
+    at: float | None,
+    shot: Shot,
+    still: tuple[Path, float] | None,
+) -> Spent:
+    """Runs and draws a simulation into the file that is asked for."""
+    from windswept.render.film import PICTURE_ENDINGS, film_picture, film_video
+
+    if output.suffix.lower() in PICTURE_ENDINGS:
+        return film_picture(simulation, output, 0.5 * simulation.scene.duration if at is None else at, shot)
+    return film_video(simulation, output, shot, still)

@@ -22,7 +22,7 @@ from windswept.wind.blown import blown
 if TYPE_CHECKING:
     from windswept.gpu.springs.simulation import GpuSimulation
 
-PICTURE_HEIGHT = 720
+SIZE = (1280, 720)
 """Pixels that the window opens with; simulation levels are chosen for it."""
 COUNT_EVERY = 15
 """Frames between two counts, for which the card has to be waited for."""
@@ -68,7 +68,7 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, mul
 
     require_display()
     with status_line("growing plants") as say:
-        simulation = start(scene, True, PICTURE_HEIGHT, gpu, say, multibody)
+        simulation = start(scene, True, SIZE, gpu, say, multibody)
         plants = [kind.plant for kind in simulation.kinds]
         geometries = [build_geometry(plant) for plant in plants]
 
@@ -76,7 +76,7 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, mul
 
     def advance(seconds: float, controls: Controls, camera: Camera) -> Frame:
         simulation.wind = blown(scene.wind, controls.wind_speed, controls.wind_heading)
-        simulation.eye = Eye(np.array(camera.eye, np.float32), camera.fov_y, PICTURE_HEIGHT)
+        simulation.eye = Eye(np.array(camera.eye, np.float32), camera.fov_y, SIZE[1])
         simulation.advance(seconds)
         if next(frames) % COUNT_EVERY == 0:
             controls.counters = _counters(simulation)
@@ -92,6 +92,7 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, mul
         Controls(wind_speed=mean.speed, wind_heading=math.remainder(mean.azimuth, math.tau)),
         "windswept",
         LEVEL_LOOKS,
+        () if simulation.meadow is None else simulation.meadow.beds,
     )
 
 

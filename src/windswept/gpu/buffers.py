@@ -20,7 +20,7 @@ UNIFORM_STRIDE = 256
 def filled(device: Any, rows: NDArray[Any], usage: int = STORAGE) -> Any:
     """Buffer that holds an array; at least one row long, since a binding may not be empty."""
     if len(rows) == 0:
-        rows = np.zeros(1, rows.dtype)
+        rows = np.zeros((1, *rows.shape[1:]), rows.dtype)
     return device.create_buffer_with_data(data=np.ascontiguousarray(rows), usage=usage)
 
 

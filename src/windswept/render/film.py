@@ -13,15 +13,11 @@ from windswept.gpu.frame import Frame
 from windswept.gpu.meadow.blade_list import BladeRules
 from windswept.gpu.renderer import Renderer
 from windswept.gpu.springs.simulation import GpuSimulation
-from windswept.render.card_staging import frame_on_card, stage_on_card
 from windswept.render.offscreen import render_picture
-from windswept.render.staging import frame_now, stage
+from windswept.render.staging import Running, frame_now, stage
 from windswept.render.video import VIDEO_ENDINGS, render_video
-from windswept.scene.simulation import Simulation
 
 PICTURE_ENDINGS = (".png",)
-Running = Simulation | GpuSimulation
-"""A scene in motion, on the CPU or on the card."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +32,16 @@ class Shot:
     """Told frames done and frames in all."""
 
 
+@dataclass(frozen=True, slots=True)
+class Spent:
+    """What a film took."""
+
+    simulating: float
+    """Wall time, s; a card works on while the CPU goes ahead."""
+    stage_milliseconds: dict[str, float]
+    """By the card's clock, of the simulation's last steps if it ran there, and of the last picture."""
+
+
 def check_film(path: Path) -> None:
     """Refuses a path that can become neither a picture nor a video, before any work is done.
 
@@ -45,7 +51,7 @@ def check_film(path: Path) -> None:
     check_place(path, PICTURE_ENDINGS + VIDEO_ENDINGS)
 
 
-def film_picture(simulation: Running, path: Path, at: float, shot: Shot) -> float:
+def film_picture(simulation: Running, path: Path, at: float, shot: Shot) -> Spent:
     """Runs a simulation to a moment and draws it in full detail.
 
     Args:
@@ -53,9 +59,6 @@ def film_picture(simulation: Running, path: Path, at: float, shot: Shot) -> floa
         path: .png
         at: time of the picture, s.
         shot: how it is drawn.
-
-    Returns:
-        Wall time that the simulation took, s.
 
     Raises:
         InputError: unknown ending, or a place that cannot be written to.
@@ -68,10 +71,10 @@ def film_picture(simulation: Running, path: Path, at: float, shot: Shot) -> floa
     seconds = time.perf_counter() - started
     render_picture(renderer, frame_of(simulation, shot), path)
     shot.progress(1, 1)
-    return seconds
+    return Spent(seconds, _stage_times(simulation, renderer))
 
 
-def film_video(simulation: Running, path: Path, shot: Shot, still: tuple[Path, float] | None = None) -> float:
+def film_video(simulation: Running, path: Path, shot: Shot, still: tuple[Path, float] | None = None) -> Spent:
     """Runs a simulation through its scene and draws all frames.
 
     Args:
@@ -79,9 +82,6 @@ def film_video(simulation: Running, path: Path, shot: Shot, still: tuple[Path, f
         path: .mp4 or .webp
         shot: how it is drawn.
         still: a .png and a time, s: that moment is drawn in full detail as well, on the way.
-
-    Returns:
-        Wall time that the simulation took, s.
 
     Raises:
         InputError: unknown ending, or a place that cannot be written to.
@@ -92,15 +92,16 @@ def film_video(simulation: Running, path: Path, shot: Shot, still: tuple[Path, f
         check_place(still[0], PICTURE_ENDINGS)
     scene, clock = simulation.scene, _Clock()
     total = scene.frame_count
+    renderer = _stage(simulation, shot.size)
     frames = _frames(simulation, total, shot, clock, still)
-    render_video(
-        _stage(simulation, shot.size),
-        frames,
-        path,
-        scene.frames_per_second,
-        lambda done: shot.progress(done, total),
-    )
-    return clock.seconds
+    render_video(renderer, frames, path, scene.frames_per_second, lambda done: shot.progress(done, total))
+    return Spent(clock.seconds, _stage_times(simulation, renderer))
+
+
+def _stage_times(simulation: Running, renderer: Renderer) -> dict[str, float]:
+    """How long every stage took on the card when it last ran."""
+    on_card = simulation.stage_milliseconds if isinstance(simulation, GpuSimulation) else {}
+    return on_card | renderer.stage_milliseconds
 
 
 class _Clock:
@@ -125,14 +126,10 @@ def _frames(
 
 
 def _stage(simulation: Running, size: tuple[int, int], rules: DetailRules | None = None) -> Renderer:
-    """A renderer for a simulation, wherever it runs."""
-    if isinstance(simulation, GpuSimulation):
-        return stage_on_card(simulation, size, rules)
+    """A renderer for a simulation; what is spent on its plants is spent on its underbrush as well."""
     return stage(simulation, size, rules, None if rules is None else BladeRules())
 
 
 def frame_of(simulation: Running, shot: Shot) -> Frame:
     """What is to be seen at this moment."""
-    if isinstance(simulation, GpuSimulation):
-        return frame_on_card(simulation, level_colours=shot.level_colours)
     return frame_now(simulation, level_colours=shot.level_colours)

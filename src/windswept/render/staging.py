@@ -19,6 +19,7 @@ from windswept.gpu.frame import (
 )
 from windswept.gpu.meadow.blade_list import BladeRules
 from windswept.gpu.renderer import Renderer
+from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.motion import TIME_STEP, Level
 from windswept.plants.plant import Floats, Ints, Look
 from windswept.render.balls import balls_now
@@ -26,6 +27,8 @@ from windswept.scene.camera import View, view_at
 from windswept.scene.simulation import Simulation
 from windswept.scene.terrain import Terrain
 
+Running = Simulation | GpuSimulation
+"""A scene in motion, on the CPU or on the card."""
 LEVEL_COLOURS = (
     (0.55, 0.03, 0.03),
     (0.60, 0.16, 0.02),
@@ -43,7 +46,7 @@ LEVEL_LOOKS = tuple(
 
 
 def stage(
-    simulation: Simulation,
+    simulation: Running,
     size: tuple[int, int] = (1280, 720),
     rules: DetailRules | None = None,
     blade_rules: BladeRules | None = None,
@@ -68,17 +71,33 @@ def stage(
     )
 
 
-def frame_now(simulation: Simulation, view: View | None = None, level_colours: bool = False) -> Frame:
-    """What is to be seen at this moment.
+def frame_now(simulation: Running, view: View | None = None, level_colours: bool = False) -> Frame:
+    """What is to be seen at this moment; of a simulation on the card, draw it before the simulation advances.
 
     Args:
         simulation: at the moment to draw.
         view: from where; None for the scene's own camera.
-        level_colours: colour every plant by how few oscillators move it.
+        level_colours: colour every plant by how few oscillators move it; from the card that has to be read back.
     """
     scene = simulation.scene
-    seen = view_at(scene.camera, simulation.time) if view is None else view
-    posed = tuple(
+    x, y = simulation.wind.mean.vector
+    return Frame(
+        plants=_plants(simulation, level_colours),
+        camera=camera_of(view_at(scene.camera, simulation.time) if view is None else view),
+        sun=_triple(scene.sun_direction),
+        time=simulation.time,
+        wind=(float(x), float(y)),
+        motion=simulation.motion() if isinstance(simulation, GpuSimulation) else None,
+        balls=balls_now(scene, simulation.time),
+        meadow=meadow_motion(simulation),
+    )
+
+
+def _plants(simulation: Running, level_colours: bool) -> tuple[PosedPlants, ...]:
+    """All plants, with the poses that they have; on the card these stay where they are."""
+    if isinstance(simulation, GpuSimulation):
+        return _plants_on_card(simulation, level_colours)
+    return tuple(
         PosedPlants(
             pose.link,
             kind.placements.position,
@@ -88,24 +107,31 @@ def frame_now(simulation: Simulation, view: View | None = None, level_colours: b
         )
         for kind, pose, speeds in zip(simulation.kinds, simulation.pose, simulation.wind_speeds, strict=True)
     )
-    x, y = simulation.wind.mean.vector
-    return Frame(
-        plants=posed,
-        camera=camera_of(seen),
-        sun=_triple(scene.sun_direction),
-        time=simulation.time,
-        wind=(float(x), float(y)),
-        balls=balls_now(simulation),
-        meadow=meadow_motion(simulation),
+
+
+def _plants_on_card(simulation: GpuSimulation, level_colours: bool) -> tuple[PosedPlants, ...]:
+    """All plants, without poses and winds."""
+    levels = simulation.levels_now if level_colours else [None] * len(simulation.kinds)
+    return tuple(
+        PosedPlants(
+            link=None,
+            position=kind.placements.position,
+            yaw=kind.placements.yaw,
+            flutter=np.zeros(kind.placements.count, np.float32),
+            extra_look=None if at is None else level_colour(kind.levels, at),
+        )
+        for kind, at in zip(simulation.kinds, levels, strict=True)
     )
 
 
-def meadow_motion(simulation: Simulation) -> MeadowMotion | None:
+def meadow_motion(simulation: Running) -> MeadowMotion | None:
     """How the blades of a simulation lean at this moment; None where it has none."""
     if simulation.meadow is None:
         return None
-    states = [state for bed in simulation.meadow.beds for state in bed.states if state is not None]
     ahead = simulation.time - simulation.step_count * TIME_STEP
+    if isinstance(simulation, GpuSimulation):
+        return MeadowMotion((), ahead, simulation.meadow.leaning.leans)
+    states = [state for bed in simulation.meadow.beds for state in bed.states if state is not None]
     return MeadowMotion(tuple(state.lanes for state in states), ahead)
 
 

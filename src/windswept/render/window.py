@@ -16,6 +16,7 @@ from windswept.gpu.frame import FLAT_GROUND, Camera, Frame, Ground
 from windswept.gpu.renderer import Renderer
 from windswept.plants.plant import Look, Plant
 from windswept.render.orbit import Orbit, orbit_from
+from windswept.scene.meadow_bed import Bed
 
 TURN_PER_PIXEL = 0.006
 ZOOM_PER_STEP = 1.0015
@@ -53,6 +54,7 @@ def show_window(
     controls: Controls | None = None,
     title: str = "windswept",
     extra_looks: tuple[Look, ...] = (),
+    beds: tuple[Bed, ...] = (),
 ) -> None:
     """Open a window and run until it is closed.
 
@@ -65,6 +67,7 @@ def show_window(
         controls: where the sliders begin.
         title: of the window.
         extra_looks: that placements may wear instead of their plant's own.
+        beds: blades of underbrush.
 
     Raises:
         GraphicsError: no display, no adapter, or the ``view`` extra is not installed.
@@ -81,7 +84,7 @@ def show_window(
     colour_format = context.get_preferred_format(device.adapter)
     context.configure(device=device, format=colour_format)
     renderer = Renderer(
-        plants, geometries, ground, canvas.get_physical_size(), None, colour_format, extra_looks
+        plants, geometries, ground, canvas.get_physical_size(), None, colour_format, extra_looks, beds
     )
     panel = ImguiRenderer(device, canvas)
     view = _LiveView(renderer, advance, orbit_from(camera), controls or Controls())

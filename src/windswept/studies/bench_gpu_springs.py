@@ -14,7 +14,7 @@ from windswept.gpu.device import adapter_summary, is_software, shared_device
 from windswept.gpu.springs.kinds import GrownKind, grown_kinds
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.motion import TIME_STEP, build_model
-from windswept.render.card_staging import frame_on_card, stage_on_card
+from windswept.render.staging import frame_now, stage
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Placements, PlantKind, Scene
 from windswept.scene.simulation import WIND_INTERVAL
@@ -124,12 +124,12 @@ def _frame() -> dict[str, float]:
     """Every stage of a frame of the example scene, nothing read back but the clock."""
     scene = load_scene(Path(str(files("windswept") / "scene" / "examples" / "forest_edge.toml")))
     card = GpuSimulation(scene, grown_kinds(scene, levels=True))
-    renderer = stage_on_card(card, SIZE)
+    renderer = stage(card, SIZE)
     card.advance(2.0)
 
     def one() -> dict[str, float]:
         card.advance(1.0 / FRAME_RATE)
-        renderer.draw(frame_on_card(card))
+        renderer.draw(frame_now(card))
         return card.stage_milliseconds | renderer.stage_milliseconds
 
     wall = median_seconds(one, REPEATS)

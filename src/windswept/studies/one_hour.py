@@ -18,7 +18,7 @@ from windswept.gpu.device import adapter_summary
 from windswept.gpu.springs.kinds import GrownKind, grown_kinds
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.levels import Eye
-from windswept.render.card_staging import frame_on_card, stage_on_card
+from windswept.render.staging import frame_now, stage
 from windswept.scene.camera import View
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Scene
@@ -45,7 +45,7 @@ def one_hour(
         size: of the picture, pixels.
     """
     card = GpuSimulation(scene, kinds, picture_height=size[1])
-    renderer = stage_on_card(card, size)
+    renderer = stage(card, size)
     total = math.ceil(seconds * rate)
     for frame in range(1, total + 1):
         view = _view(card.time)
@@ -53,7 +53,7 @@ def one_hour(
         card.wind = blown(scene.wind, 6.0 + 4.0 * math.sin(0.1 * card.time), 0.02 * card.time)
         card.advance(1.0 / rate)
         if frame % draw_every == 0:
-            renderer.draw(frame_on_card(card, view))
+            renderer.draw(frame_now(card, view))
         if frame % max(total // 10, 1) == 0:
             yield {"simulated_s": card.time, "steps": card.step_count, "frames": frame, **_memory()}
 

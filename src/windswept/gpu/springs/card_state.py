@@ -72,8 +72,8 @@ class CardState:
         rungs = self._arrays.rungs
         rows = np.ones((5, 3), np.uint32)
         rows[:, 0] = 0
-        rows[WIND // 3, 1:] = rungs["probes"][:, 1].max(), 2
-        rows[JOIN_GROUPS // 3, 1] = max(rungs["groups"][:, 1].max(), 1)
+        rows[WIND // 3, 1:] = rungs["probes"][:, 1].max(initial=0), 2
+        rows[JOIN_GROUPS // 3, 1] = rungs["groups"][:, 1].max(initial=1)
         return rows.ravel()
 
     @property

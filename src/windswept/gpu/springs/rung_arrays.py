@@ -58,6 +58,8 @@ def rung_arrays(kinds: list[GrownKind], limit: int) -> RungArrays:
     Raises:
         GraphicsError: the card has too little room.
     """
+    if not kinds:
+        return _nothing()
     levels = [level for kind in kinds for level in kind.levels]
     if len(kinds) > layouts.KIND_LIMIT or len(levels) > layouts.RUNG_LIMIT:
         raise GraphicsError(
@@ -83,6 +85,26 @@ def rung_arrays(kinds: list[GrownKind], limit: int) -> RungArrays:
         wind_rows=int((room * size.wind).sum()),
         member_rows=int(room.sum()),
         pose_rows=sum(kind.placements.count * kind.model.link_count for kind in kinds),
+    )
+
+
+def _nothing() -> RungArrays:
+    """Of a scene without plants that stand by themselves, such as a meadow."""
+    return RungArrays(
+        kinds=np.zeros(0, layouts.KIND),
+        rungs=np.zeros(0, layouts.RUNG),
+        links=np.zeros(0, layouts.LINK),
+        groups=np.zeros(0, layouts.GROUP),
+        probes=np.zeros((0, 4), np.float32),
+        listeners=np.zeros((0, 4), np.uint32),
+        shapes=np.zeros(0, layouts.SHAPE),
+        rooted=np.zeros(0, layouts.ROOTED),
+        levels=(),
+        state_rows=0,
+        stack_rows=0,
+        wind_rows=0,
+        member_rows=0,
+        pose_rows=0,
     )
 
 

@@ -143,19 +143,19 @@ class GpuSimulation:
     def wind_speeds(self) -> list[Floats]:
         """(P,) mean wind speed in the crown of every placement, m/s, kind by kind, read back."""
         speeds = self.card.read("speeds", "<f4")[: len(self._arrays.rooted)]
-        return np.split(speeds, self._arrays.kinds["ladder"][1:, 2])
+        return self._by_kind(speeds)
 
     @property
     def levels_now(self) -> list[Ints]:
         """(P,) level of every placement, or the one it is blending to, kind by kind, read back."""
         at = self.card.read("motions", layouts.MOTION)["at"][: len(self._arrays.rooted), 0]
         place = self._arrays.rungs["groups"][at, 3].astype(np.int32)
-        return np.split(place, self._arrays.kinds["ladder"][1:, 2])
+        return self._by_kind(place)
 
     @property
     def placements_by_level(self) -> list[int]:
         """How many placements are at each level, over all kinds, read back."""
-        return np.bincount(np.concatenate(self.levels_now)).tolist()
+        return np.bincount(np.concatenate([np.zeros(0, np.int32), *self.levels_now])).tolist()
 
     @property
     def stepped_count(self) -> int:
@@ -185,6 +185,11 @@ class GpuSimulation:
         """How long each stage took on the card when it last ran; empty on a card without a clock."""
         blades = {} if self.meadow is None else self.meadow.leaning.times.read()
         return self._walk.times.read() | blades
+
+    def _by_kind(self, values: NDArray[Any]) -> list[NDArray[Any]]:
+        """(P,) values of all placements, kind by kind."""
+        firsts = self._arrays.kinds["ladder"][:, 2]
+        return np.split(values, firsts)[1:]
 
     def _new_walk(self) -> Walk:
         """The kernels, over what is on the card."""

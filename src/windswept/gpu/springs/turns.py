@@ -31,9 +31,9 @@ def steps_in_turns(device: Any, rungs: Rows, turns_per_link: int) -> int:
     if not is_software(device):
         return WIND_INTERVAL
     turns = turns_per_link * rungs["links"][:, 1].astype(np.int64) + rungs["groups"][:, 1] + SPARE_TURNS
-    if turns.max() > SOFTWARE_TURNS:
+    if turns.max(initial=1) > SOFTWARE_TURNS:
         raise GraphicsError(
             f"a plant has {rungs['links'][:, 1].max()} links and a software graphics driver moves "
             f"{(SOFTWARE_TURNS - SPARE_TURNS) // turns_per_link} at most: simulate on the CPU"
         )
-    return int(min(SOFTWARE_TURNS // turns.max(), WIND_INTERVAL))
+    return int(min(SOFTWARE_TURNS // turns.max(initial=1), WIND_INTERVAL))

@@ -10,8 +10,7 @@ from stands import SOFT, both, stand_of
 from windswept.geometry.detail import DetailRules
 from windswept.levels import build_ladder, simplify
 from windswept.motion import build_model
-from windswept.render.card_staging import frame_on_card, stage_on_card
-from windswept.render.staging import frame_now
+from windswept.render.staging import frame_now, stage
 from windswept.scene.camera import View
 
 SIZE = (160, 96)
@@ -26,16 +25,16 @@ def stands():
 
 def test_the_picture_is_that_of_the_cpu(stands):
     simulation, card = stands
-    renderer = stage_on_card(card, SIZE, DetailRules())
+    renderer = stage(card, SIZE, DetailRules())
     view = View(np.array([2.0, -6.0, 2.0], np.float32), np.array([0.0, 2.0, 1.5], np.float32), 0.8)
     seen = []
     for seconds in (0.51, 1.2):
         simulation.advance(seconds)
         card.advance(seconds)
-        from_card = renderer.draw(frame_on_card(card, view))
+        from_card = renderer.draw(frame_now(card, view))
         assert renderer.posing.links.buffer.size < 64 * 32 + 1
         seen.append((from_card, renderer.stage_milliseconds, card.stage_milliseconds))
-        expected = stage_on_card(card, SIZE, DetailRules()).draw(frame_now(simulation, view))
+        expected = stage(card, SIZE, DetailRules()).draw(frame_now(simulation, view))
         # A face's edge may fall on the other side of a sample.
         far = np.abs(from_card.astype(int) - expected).max(axis=2) > 8
         assert far.mean() < 0.002
@@ -44,8 +43,8 @@ def test_the_picture_is_that_of_the_cpu(stands):
 
 def test_stages_are_timed_by_the_cards_own_clock(stands, device_has_clock):
     _, card = stands
-    renderer = stage_on_card(card, SIZE)
-    renderer.draw(frame_on_card(card.advance(0.1)))
+    renderer = stage(card, SIZE)
+    renderer.draw(frame_now(card.advance(0.1)))
     if device_has_clock:
         assert set(renderer.stage_milliseconds) == {"curves", "shadows", "picture"}
         assert {"wind", "simulate", "pose"} <= set(card.stage_milliseconds)
