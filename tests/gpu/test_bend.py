@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import os
 import re
 from dataclasses import replace
 from importlib.resources import files
-from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
-from PIL import Image
 
+from golden_picture import check_golden, skip_other_drivers
 from handmade import build_plant, random_tree, straight
 from windswept.errors import InputError
 from windswept.geometry.bark import bark_surface
@@ -21,7 +19,6 @@ from windswept.geometry.geometry import PosedCurves
 from windswept.gpu.bend import Bending, BranchDrawing, branch_look_rows, layouts
 from windswept.gpu.bend.branch_rows import branch_rows
 from windswept.gpu.buffers import filled
-from windswept.gpu.device import is_software
 from windswept.gpu.frame import Camera, Frame, Ground, PosedPlants
 from windswept.gpu.layouts import COUNTS, GUST, REALS, WAVE
 from windswept.gpu.plant_buffers import plant_arrays
@@ -32,14 +29,12 @@ from windswept.motion.bend_branches import place_branches
 from windswept.motion.bend_plain import WEIGHTS, attachment_gap, handles
 from windswept.motion.bend_plant import plant_branches
 from windswept.plants.plant import Look
-from windswept.render.offscreen import write_png
 from windswept.wind.gusts import Gust
 from windswept.wind.mean import MeanWind, Profile
 from windswept.wind.plausible_waves import plausible_waves
 from windswept.wind.waves import Waves, WaveSchedule, WaveSet
 from windswept.wind.wind import Wind, calm
 
-GOLDEN = Path(__file__).with_name("golden_bent_branch.png")
 PROBE = """
 @group(1) @binding(6) var<storage, read> questions: array<vec4f>;
 @group(1) @binding(7) var<storage, read_write> answers: array<vec4f>;
@@ -263,16 +258,5 @@ def bent_branch_picture(device):
 
 
 def test_a_bent_branch_looks_as_it_did(device, tmp_path):
-    if not is_software(device):
-        pytest.skip("golden pictures are compared on software Vulkan only")
-    drawn = bent_branch_picture(device)
-    if os.environ.get("WINDSWEPT_REMAKE_GOLDEN"):
-        write_png(drawn, GOLDEN)
-    assert GOLDEN.stat().st_size < 60_000
-    with Image.open(GOLDEN) as image:
-        golden = np.asarray(image).astype(int)
-    difference = np.abs(drawn[..., :3].astype(int) - golden)
-    if difference.mean() > 1.0 or (difference.max(axis=2) > 40).mean() > 0.01:
-        write_png(drawn, tmp_path / "drawn.png")
-        write_png(np.clip(4 * difference, 0, 255).astype(np.uint8), tmp_path / "difference.png")
-        pytest.fail(f"mean {difference.mean():.2f}: see {tmp_path}/difference.png and drawn.png")
+    skip_other_drivers()
+    check_golden(bent_branch_picture(device), "bent_branch", tmp_path)
