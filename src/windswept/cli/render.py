@@ -57,7 +57,11 @@ def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, in
 @click.option(
     "--gpu", is_flag=True, help="Simulate on the graphics card; on the CPU where it has too little memory."
 )
-@click.option("--multibody", is_flag=True, help="Move plants near the camera with all their links coupled.")
+@click.option(
+    "--multibody",
+    is_flag=True,
+    help="Move plants near the camera with all their links coupled; with --gpu all plants, without levels.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Report as one JSON object.")
 def command(
     source: str,
@@ -79,7 +83,6 @@ def command(
     from windswept.render.film import check_film
 
     check_film(output)
-    check_multibody(multibody, gpu)
     scene = load_scene(source, seed)
     if duration is not None:
         scene = replace(scene, duration=duration)
@@ -89,12 +92,6 @@ def command(
         click.echo(f"windswept: {figures['clamped']:,} {line}", err=True)
     if as_json:
         click.echo(json.dumps(figures))
-
-
-def check_multibody(multibody: bool, gpu: bool) -> None:
-    """Only the CPU couples links."""
-    if multibody and gpu:
-        raise InputError("--gpu", "", None, "no --multibody beside it, which moves plants on the CPU")
 
 
 def start(
@@ -112,22 +109,33 @@ def start(
         return Simulation(
             scene, None, levels, picture_height=height, say=say, multibody=multibody, beds=beds, aspect=aspect
         )
+    from windswept.gpu.multibody.simulation import CoupledSimulation
     from windswept.gpu.springs.kinds import grown_kinds
     from windswept.gpu.springs.simulation import GpuSimulation
 
-    kinds = grown_kinds(scene, levels, say)
+    kinds = grown_kinds(scene, levels and not multibody, say)
     try:
+        if multibody:
+            return CoupledSimulation(scene, kinds, beds=beds)
         return GpuSimulation(scene, kinds, picture_height=height, beds=beds, aspect=aspect)
     except GraphicsError as error:
         click.echo(f"windswept: {error}; simulating on the CPU", err=True)
-        return _without_card(scene, [kind.plant for kind in kinds], beds, levels, size)
+        return _without_card(scene, [kind.plant for kind in kinds], beds, levels, size, multibody)
 
 
 def _without_card(
-    scene: Scene, plants: list[Plant], beds: tuple[Bed, ...], levels: bool, size: tuple[int, int]
+    scene: Scene,
+    plants: list[Plant],
+    beds: tuple[Bed, ...],
+    levels: bool,
+    size: tuple[int, int],
+    multibody: bool,
 ) -> Simulation:
     """The scene in motion on the CPU, with what has been grown and planted already."""
-    return Simulation(scene, plants, levels, picture_height=size[1], beds=beds, aspect=size[0] / size[1])
+    height, aspect = size[1], size[0] / size[1]
+    return Simulation(
+        scene, plants, levels, picture_height=height, multibody=multibody, beds=beds, aspect=aspect
+    )
 
 
 def render_scene(
@@ -157,7 +165,8 @@ def render_scene(
                 raise
             click.echo(f"windswept: {error}; starting again on the CPU", err=True)
             beds = () if simulation.meadow is None else simulation.meadow.beds
-            simulation = _without_card(scene, [kind.plant for kind in simulation.kinds], beds, levels, size)
+            plants = [kind.plant for kind in simulation.kinds]
+            simulation = _without_card(scene, plants, beds, levels, size, multibody)
             spent = _film(simulation, output, at, shot, still)
     # A card works on while the CPU goes ahead: there only its own clock knows.
     speed = (

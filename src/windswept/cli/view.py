@@ -12,7 +12,7 @@ import numpy as np
 
 from windswept.cli.numbers import SEED
 from windswept.cli.progress import status_line
-from windswept.cli.render import check_multibody, start
+from windswept.cli.render import start
 from windswept.levels import Eye
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Scene
@@ -37,13 +37,16 @@ COUNT_EVERY = 15
 @click.option(
     "--gpu", is_flag=True, help="Simulate on the graphics card; on the CPU where it has too little memory."
 )
-@click.option("--multibody", is_flag=True, help="Move plants near the camera with all their links coupled.")
+@click.option(
+    "--multibody",
+    is_flag=True,
+    help="Move plants near the camera with all their links coupled; with --gpu all plants, without levels.",
+)
 def command(source: str, seed: int | None, level_colours: bool, gpu: bool, multibody: bool) -> None:
     """Open a live window on SCENE: drag to orbit, scroll to zoom, sliders for the wind, pause.
 
     Example: windswept view weeping_willow
     """
-    check_multibody(multibody, gpu)
     view_scene(load_scene(source, seed), level_colours, gpu, multibody)
 
 
@@ -54,7 +57,7 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, mul
         scene: to show.
         level_colours: colour plants by their simulation level.
         gpu: simulate on the card.
-        multibody: couple the links of plants near the camera; on the CPU.
+        multibody: couple the links of plants near the camera; on the card those of all plants.
 
     Raises:
         GraphicsError: no display, no adapter, or the window libraries are not installed.

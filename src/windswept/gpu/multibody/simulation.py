@@ -18,6 +18,7 @@ from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.gpu.springs.walk import Walk
 from windswept.motion.multibody import CoupledState
 from windswept.plants.plant import Floats
+from windswept.scene.meadow_bed import Bed
 from windswept.scene.scene import Scene
 
 
@@ -28,6 +29,7 @@ class CoupledSimulation(GpuSimulation):
         scene: what stands where, in which wind.
         kinds: its plants, grown and compiled; their ladders are not used.
         room: bytes that a buffer may have; None for what the adapter takes.
+        beds: its underbrush, planted.
 
     Raises:
         GraphicsError: no adapter, or one with too little memory.
@@ -35,10 +37,12 @@ class CoupledSimulation(GpuSimulation):
 
     turns_per_link = 1
 
-    def __init__(self, scene: Scene, kinds: list[GrownKind], room: int | None = None) -> None:
+    def __init__(
+        self, scene: Scene, kinds: list[GrownKind], room: int | None = None, beds: tuple[Bed, ...] = ()
+    ) -> None:
         limit = shared_device().limits["max-storage-buffer-binding-size"]
         self._room = limit if room is None else min(room, limit)
-        super().__init__(scene, [replace(kind, ladder=None) for kind in kinds], room=self._room)
+        super().__init__(scene, [replace(kind, ladder=None) for kind in kinds], room=self._room, beds=beds)
         # Every walk of a step is a dispatch of its own.
         self.steps_at_once = 1
 
