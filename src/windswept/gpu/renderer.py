@@ -116,7 +116,7 @@ class Renderer:
             spent = blade_rules or (SOFTWARE_BLADES if is_software(self._device) else BladeRules())
             picture = colour_format, SAMPLES
             self.meadow = MeadowDrawing(
-                self._device, beds, ground, spent, self._frame_layout, self._lighting.layout, picture
+                self._device, beds, spent, self._frame_layout, self._lighting.layout, picture
             )
         self._colour_format = colour_format
         self._times = StageTimes(self._device, STAGES)

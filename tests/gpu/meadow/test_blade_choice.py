@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from windswept.gpu.buffers import UNIFORM_STRIDE
-from windswept.gpu.frame import FLAT_GROUND, Camera
+from windswept.gpu.frame import Camera
 from windswept.gpu.layouts import COUNTS, REALS
 from windswept.gpu.matrices import camera_matrix, frustum_planes
 from windswept.gpu.meadow import blade_choice, choice_layouts, meadow_drawing
@@ -38,7 +38,7 @@ def rows() -> MeadowRows:
     )
     meadow = Simulation(scene).meadow
     assert meadow is not None
-    return meadow_rows(meadow.beds, FLAT_GROUND)
+    return meadow_rows(meadow.beds)
 
 
 def sharpness(eye: tuple[float, float, float]) -> Sharpness:

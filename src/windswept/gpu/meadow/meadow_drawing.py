@@ -8,7 +8,7 @@ import numpy as np
 import wgpu
 
 from windswept.gpu.buffers import UNIFORM_STRIDE, check_size, filled, room
-from windswept.gpu.frame import Ground, MeadowMotion
+from windswept.gpu.frame import MeadowMotion
 from windswept.gpu.meadow.blade_choice import MOST_DEPTH, BladeChoice
 from windswept.gpu.meadow.blade_list import BladeRules, Sharpness
 from windswept.gpu.meadow.layouts import MEADOW_PASS, POSED_JOINT
@@ -41,7 +41,6 @@ class MeadowDrawing:
     Args:
         device: the card.
         beds: the blades of the scene.
-        ground: they stand on.
         rules: what may be spent.
         frame_layout: layout of bind group 0.
         light_layout: layout of bind group 2.
@@ -55,14 +54,13 @@ class MeadowDrawing:
         self,
         device: Any,
         beds: tuple[Bed, ...],
-        ground: Ground,
         rules: BladeRules,
         frame_layout: Any,
         light_layout: Any,
         picture: tuple[str, int],
     ) -> None:
         self._device = device
-        self.rows: MeadowRows = meadow_rows(beds, ground)
+        self.rows: MeadowRows = meadow_rows(beds)
         check_size(device, self.rows.blades.nbytes)
         self._pose_layout = buffers_layout(device, COMPUTE, *[READ] * 6, WRITE, DYNAMIC_UNIFORM)
         self._draw_layout = buffers_layout(device, DRAWING, READ, DYNAMIC_UNIFORM)

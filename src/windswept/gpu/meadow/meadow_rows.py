@@ -9,12 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from windswept.gpu.frame import Ground
-from windswept.gpu.ground_mesh import ground_height
 from windswept.gpu.layouts import NONE
 from windswept.gpu.meadow.layouts import BLADE_ROW, BLADE_RUN
 from windswept.motion.blades import BladeKind, Blades, PoseTable, simplify_table
-from windswept.motion.blades.blades import PLACE, STATE_COUNT, from_tiles
+from windswept.motion.blades.blades import STATE_COUNT
 from windswept.motion.blades.pose_blades import rest_frame
 from windswept.motion.lanes import WIDTH
 from windswept.plants.plant import Floats, Ints
@@ -78,20 +76,23 @@ class _Set:
     parents_first: int
     """First blade of the parents' set; -1 on the ground."""
     depth: int
+    root: Floats
+    """(B, 3) where on the ground every blade stands, or what carries it, m."""
+    reach: Floats
+    """(B,) how far from there its tip can get, however it and what carries it may lean, m."""
 
 
-def meadow_rows(beds: Sequence[Bed], ground: Ground) -> MeadowRows:
+def meadow_rows(beds: Sequence[Bed]) -> MeadowRows:
     """Lay out the blades of all beds.
 
     Args:
         beds: as the scene planted them.
-        ground: they stand on.
     """
     sets, state_sizes = _sets(beds)
     tables, borders = _Tables(), _Borders()
     runs = np.concatenate([_run(one, level, tables, borders) for one in sets for level in range(LEVELS)])
     rows = [_blade_rows(one, number) for number, one in enumerate(sets)]
-    chunks = [_chunks(one.blades, ground) for one in sets]
+    chunks = [_chunks(one) for one in sets]
     chunk_counts = [len(first) for first, _ in chunks]
     chunk_first = [one.first + first for one, (first, _) in zip(sets, chunks, strict=True)]
     count = sum(one.blades.count for one in sets)
@@ -128,6 +129,7 @@ def _sets(beds: Sequence[Bed]) -> tuple[list[_Set], list[int]]:
         own = len(sets)
         for blades, state, stands_for in zip(bed.blades, bed.states, bed.stands_for, strict=True):
             above = None if blades.parent_kind < 0 else sets[own + blades.parent_kind]
+            length = blades.size * np.float32(blades.kind.table.length.sum())
             sets.append(
                 _Set(
                     blades,
@@ -136,6 +138,8 @@ def _sets(beds: Sequence[Bed]) -> tuple[list[_Set], list[int]]:
                     NONE if state is None else sum(state_sizes),
                     -1 if above is None else above.first,
                     0 if above is None else above.depth + 1,
+                    blades.base if above is None else above.root[blades.parent],
+                    length if above is None else length + above.reach[blades.parent],
                 )
             )
             first += blades.count
@@ -253,13 +257,9 @@ def _pairs(low: Doubles, high: Doubles) -> NDArray[np.uint32]:
     return parts[0].astype(np.uint32) | (parts[1].astype(np.uint32) << np.uint32(16))
 
 
-def _chunks(blades: Blades, ground: Ground) -> tuple[Ints, Doubles]:
-    """First blade of every chunk of a set, and (C, 4) balls round them."""
-    place = from_tiles(blades.constants[:, PLACE : PLACE + 3])[: blades.count].astype(np.float64)
-    first = np.arange(0, blades.count, CHUNK, dtype=np.int32)
-    low, high = np.minimum.reduceat(place, first), np.maximum.reduceat(place, first)
-    middle = 0.5 * (low + high)
-    middle[:, 2] += ground_height(ground, *middle[:, :2].T)
-    reach = float(blades.kind.table.length.sum() * blades.size.max())
-    radius = 0.5 * np.linalg.norm(high - low, axis=1) + reach
-    return first, np.concatenate([middle, radius[:, None]], axis=1)
+def _chunks(one: _Set) -> tuple[Ints, Doubles]:
+    """First blade of every chunk of a set, and (C, 4) balls that none of its blades can leave."""
+    first = np.arange(0, one.blades.count, CHUNK, dtype=np.int32)
+    low, high = np.minimum.reduceat(one.root, first), np.maximum.reduceat(one.root, first)
+    radius = 0.5 * np.linalg.norm(high - low, axis=1) + np.maximum.reduceat(one.reach, first)
+    return first, np.column_stack([0.5 * (low + high), radius]).astype(np.float64)
