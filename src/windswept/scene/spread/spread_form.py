@@ -31,7 +31,8 @@ class NutrientForm(Form):
     patch_m: Annotated[float, Field(ge=1, le=4000)] = 25.0
     """Noise: from one rich patch to the next."""
     image: Source | None = None
-    """Image: path of a square grey PNG or TIFF relative to the scene file; its edges are those of the ground."""
+    """Image: path of a square grey PNG or TIFF relative to the scene file, of any size: its edges are those of the
+    ground, and between its pixels amounts go over linearly."""
 
 
 class NeedForm(Form):
