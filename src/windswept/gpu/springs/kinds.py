@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from windswept.levels import Ladder, build_ladder, simplify
+from windswept.levels import Ladder, build_ladder, measured_ladder, simplify
 from windswept.motion import Level, Model, build_model, finest_level
 from windswept.plants.plant import Plant
 from windswept.scene.grow_kinds import grow_kinds
@@ -49,7 +49,8 @@ def grown_kinds(
     kinds = []
     for plant, placements in zip(grow_kinds(scene, say), scene.placements, strict=True):
         model = build_model(plant)
-        kinds.append(GrownKind(plant, model, build_ladder(simplify(model)) if levels else None, placements))
+        ladder = measured_ladder(build_ladder(simplify(model))) if levels else None
+        kinds.append(GrownKind(plant, model, ladder, placements))
     return kinds
 
 
