@@ -11,6 +11,7 @@ from handmade import random_tree
 from shaken import shaken_pose
 from windswept.geometry.bark import bark_surface
 from windswept.geometry.curves import build_geometry
+from windswept.geometry.detail import DetailRules
 from windswept.geometry.pose_curves import pose_curves
 from windswept.gpu import layouts
 from windswept.gpu.buffers import filled
@@ -33,7 +34,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
 """
 
 
-def posed_rows(geometry, curves):
+def posed_rows(geometry, curves, stem_rank):
     """``PosedPiece`` rows as ``curves.wgsl`` would write them for a placement at the origin."""
     rows = np.zeros(geometry.piece_count, layouts.POSED_PIECE)
     for k in range(4):
@@ -42,7 +43,7 @@ def posed_rows(geometry, curves):
         rows[f"side{k}"][:, :3] = curves.sides[0, :, k]
     rows["p0"][:, 3], rows["p1"][:, 3] = geometry.piece_span.T
     rows["side0"][:, 3] = 1.0
-    rows["rows"][:, 0] = geometry.piece_stem
+    rows["rows"][:, 0] = stem_rank[geometry.piece_stem]
     return rows
 
 
@@ -98,9 +99,10 @@ def test_the_card_draws_the_same_surface(device, taper):
     rng = np.random.default_rng(1)
     piece = rng.integers(0, geometry.piece_count, 400)
     t, angle = rng.uniform(0.02, 0.97, 400), rng.uniform(0.0, 2.0 * np.pi, 400)
-    arrays = plant_arrays([geometry], [plant.link_base], [plant.look])
+    arrays = plant_arrays([plant], [geometry], [plant.look], DetailRules())
+    pieces = posed_rows(geometry, curves, arrays.kinds[0].pose.stem_rank)
     questions = np.stack([piece, t, angle, 0.0 * t], axis=1).astype(np.float32)
-    position, normal = ask(device, arrays.stems, posed_rows(geometry, curves), questions)
+    position, normal = ask(device, arrays.stems, pieces, questions)
 
     expected = bark_surface(geometry, curves, 0, piece, t, angle)
     tolerance = 1e-5 * plant.height if taper < 2.5 else 1e-3

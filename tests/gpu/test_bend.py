@@ -15,6 +15,7 @@ from handmade import build_plant, random_tree, straight
 from windswept.errors import InputError
 from windswept.geometry.bark import bark_surface
 from windswept.geometry.curves import build_geometry
+from windswept.geometry.detail import DetailRules
 from windswept.geometry.geometry import PosedCurves
 from windswept.gpu.bend import Bending, BranchDrawing, branch_look_rows, layouts
 from windswept.gpu.bend.branch_rows import branch_rows
@@ -160,7 +161,7 @@ def test_the_deformer_draws_the_bent_branches(device, grove):
         )
         for geometry in plain
     ]
-    arrays = plant_arrays(shaped, [p.link_base for p in plants], [p.look for p in plants])
+    arrays = plant_arrays(plants, shaped, [p.look for p in plants], DetailRules())
     looks, rows = branch_look_rows(branches, shaped, arrays.kinds, kind)
     card = Bending(device, branches, rows)
     card.step_ordered(gusty(), 3.0)

@@ -31,6 +31,7 @@ STRUCTS = {
     "PosedLeaf": layouts.POSED_LEAF,
     "GrassBlade": layouts.GRASS_BLADE,
     "Batch": layouts.BATCH,
+    "Listed": layouts.LISTED,
     "Kind": layouts.KIND,
     "Rung": layouts.RUNG,
     "Link": layouts.LINK,

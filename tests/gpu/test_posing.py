@@ -17,6 +17,18 @@ def read_rows(device, buffer, layout, count):
     return np.frombuffer(device.queue.read_buffer(buffer, 0, count * layout.itemsize), layout)
 
 
+def listed(stand, frame):
+    view, _ = stand.renderer._look(frame)
+    return draw_list(stand.renderer.kinds, frame.plants, view, stand.renderer._rules)
+
+
+def drawn(stand, frame):
+    told = stand.renderer.draw_into(stand.renderer._picture.create_view(), frame)
+    wanted = listed(stand, frame)
+    assert (told.pieces, told.leaves) == (wanted.piece_count, wanted.leaf_count)
+    return wanted
+
+
 def turned_about_z(points, yaw):
     cosine, sine = np.cos(yaw), np.sin(yaw)
     x, y, z = points[..., 0], points[..., 1], points[..., 2]
@@ -28,7 +40,7 @@ def posed(stand, device):
     """Frame with shaken plants, the draw list it leads to, and what the card made of it."""
     poses = [shaken_pose(plant, seed, angle=0.3) for seed, plant in enumerate(stand.plants)]
     frame = stand.frame(poses)
-    wanted = stand.renderer.draw_into(stand.renderer._picture.create_view(), frame)
+    wanted = drawn(stand, frame)
     pieces = read_rows(
         device, stand.renderer.posing.posed_pieces.buffer, layouts.POSED_PIECE, wanted.piece_count
     )
@@ -95,7 +107,7 @@ def test_leaves_tremble_in_wind_and_stay_square(stand, device):
     windy = stand.frame(time=1.0, flutter=0.3)
     axes = []
     for frame in (calm, windy):
-        wanted = stand.renderer.draw_into(stand.renderer._picture.create_view(), frame)
+        wanted = drawn(stand, frame)
         rows = read_rows(
             device, stand.renderer.posing.posed_leaves.buffer, layouts.POSED_LEAF, wanted.leaf_count
         )
@@ -107,8 +119,7 @@ def test_leaves_tremble_in_wind_and_stay_square(stand, device):
 
 def test_items_of_all_placements_fill_their_ranges_once(stand):
     frame = stand.frame()
-    view, _ = stand.renderer._look(frame)
-    wanted = draw_list(stand.renderer.kinds, frame.plants, view, stand.renderer._rules)
+    wanted = listed(stand, frame)
     taken = np.zeros(wanted.piece_count, int)
     for row in wanted.placements:
         first = 0

@@ -50,7 +50,7 @@ class GrowingBuffer:
 
     def __init__(self, device: Any, layout: np.dtype[np.void]) -> None:
         self._device = device
-        self._row = layout.itemsize
+        self.row_bytes = layout.itemsize
         self.buffer: Any = None
         self.reserve(1)
 
@@ -60,15 +60,20 @@ class GrowingBuffer:
         Raises:
             GraphicsError: the device cannot bind so much at once.
         """
-        if self.buffer is None or self.buffer.size < rows * self._row:
-            check_size(self._device, rows * self._row)
+        if self.buffer is None or self.buffer.size < rows * self.row_bytes:
+            check_size(self._device, rows * self.row_bytes)
             limit = self._device.limits["max-storage-buffer-binding-size"]
-            size = min(max(rows + rows // 4, 64) * self._row, limit // self._row * self._row)
+            size = min(max(rows + rows // 4, 64) * self.row_bytes, limit // self.row_bytes * self.row_bytes)
             with card_errors("the parts of a frame"):
                 self.buffer = self._device.create_buffer(size=size, usage=STORAGE)
+
+    @property
+    def rows(self) -> int:
+        """How many there is room for."""
+        return int(self.buffer.size) // self.row_bytes
 
     def write(self, rows: NDArray[Any], first: int = 0) -> None:
         """Copy rows to the card; there must be room."""
         if len(rows):
             data = np.ascontiguousarray(rows)
-            self._device.queue.write_buffer(self.buffer, first * self._row, data)
+            self._device.queue.write_buffer(self.buffer, first * self.row_bytes, data)

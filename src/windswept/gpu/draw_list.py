@@ -1,4 +1,4 @@
-"""Frame -> what is drawn of every placement and where its posed parts lie: the only choice made per frame."""
+"""Frame -> what is drawn of every placement and where its posed parts lie; culling/ does the same on the card."""
 
 from __future__ import annotations
 
@@ -7,15 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from windswept.geometry.detail import BUCKETS, LEAF_MESHES, Detail, DetailRules, choose_detail
+from windswept.geometry.detail import LEAF_MESHES, Detail, DetailRules, choose_detail
 from windswept.gpu import layouts
 from windswept.gpu.frame import Camera, PosedPlants
 from windswept.gpu.plant_buffers import Kind
+from windswept.plants.plant import Ints
 
 Doubles = NDArray[np.float64]
 
 NEAREST = 1.0
 """Distance at which detail stops growing, m."""
+CHUNK = 64
+"""Stems, pieces or leaves of one placement that a workgroup poses: CHUNK of ``curves.wgsl``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,10 +60,10 @@ class DrawList:
     """One for each bucket of stems."""
     leaves: tuple[ItemRange, ...]
     """One for each leaf mesh."""
-    stem_most: int
-    """Most stems, pieces and leaves of a single placement: how far the compute grids reach."""
-    piece_most: int
-    leaf_most: int
+    chunks: tuple[int, int, int]
+    """Runs of up to ``CHUNK`` stems, pieces and leaves of all placements."""
+    links: Ints
+    """(n,) poses that each placement needs, from rank 0 on: they stand one after another."""
 
     @property
     def piece_count(self) -> int:
@@ -71,6 +74,12 @@ class DrawList:
     def leaf_count(self) -> int:
         """Posed leaves of all meshes."""
         return sum(mesh.total for mesh in self.leaves)
+
+    @property
+    def counts(self) -> tuple[int, int, int, int]:
+        """Link poses, shifted stems, posed pieces and posed leaves of all placements."""
+        stems = int(self.placements["rows"][:, 3].sum(dtype=np.int64))
+        return int(self.links.sum(dtype=np.int64)), stems, self.piece_count, self.leaf_count
 
 
 def draw_list(
@@ -85,23 +94,29 @@ def draw_list(
         rules: what may be spent.
     """
     rows, centres = [np.zeros(0, layouts.PLACEMENT)], [np.zeros((0, 3))]
-    radii, meshes = [np.zeros(0)], [np.zeros(0, np.int32)]
-    link_first = shift_first = 0
+    radii, meshes, links = [np.zeros(0)], [np.zeros(0, np.int32)], [np.zeros(0, np.int32)]
     for look, (kind, posed) in enumerate(zip(kinds, plants, strict=True)):
         centre = _placed_centres(kind, posed)
         seen = _seen(centre, kind.radius, view)
         pixels = _pixels(view, centre, kind.radius)
         pixels = np.where(seen, pixels, np.minimum(pixels, 1.0 / view.shadow_texel))
         detail = choose_detail(kind.order, pixels, rules)
-        rows.append(_placement_rows(kind, posed, detail, look, len(kinds), link_first, shift_first))
+        reach = kind.pose.reach(detail.piece_limit[:, -1], detail.leaf_count)
+        rows.append(_placement_rows(kind, posed, detail, reach[:, 1], look, len(kinds)))
         centres.append(centre)
         radii.append(np.full(len(centre), kind.radius))
         meshes.append(detail.leaf_mesh)
-        link_first += len(posed.position) * kind.link_count
-        shift_first += len(posed.position) * kind.stem_count
+        links.append(reach[:, 0])
     placements = np.concatenate(rows)
     placements["number"][:, 0] = np.arange(len(placements))
-    return _arrange(placements, np.concatenate(centres), np.concatenate(radii), np.concatenate(meshes), view)
+    return _arrange(
+        placements,
+        np.concatenate(centres),
+        np.concatenate(radii),
+        np.concatenate(meshes),
+        np.concatenate(links),
+        view,
+    )
 
 
 def _placed_centres(kind: Kind, posed: PosedPlants) -> Doubles:
@@ -122,25 +137,22 @@ def _placement_rows(
     kind: Kind,
     posed: PosedPlants,
     detail: Detail,
+    stems: Ints,
     look: int,
     kinds_count: int,
-    link_first: int,
-    shift_first: int,
 ) -> NDArray[np.void]:
     """``PLACEMENT`` rows without the places of their posed items."""
     count = len(posed.position)
-    number = np.arange(count)
     rows = np.zeros(count, layouts.PLACEMENT)
     rows["position"][:, :3] = posed.position
     rows["position"][:, 3] = np.cos(posed.yaw)
-    phase = (number * 0.7548776662 + 0.13 * look) % 1.0
-    rows["heading"] = np.stack([np.sin(posed.yaw), posed.flutter, phase, detail.size_cut], axis=1)
-    rows["rows"][:, 0] = link_first + number * kind.link_count
-    rows["rows"][:, 1] = shift_first + number * kind.stem_count
-    rows["rows"][:, 2:] = kind.stem_first, kind.stem_count
+    rows["heading"] = np.stack(
+        [np.sin(posed.yaw), posed.flutter, phases(count, look), detail.size_cut], axis=1
+    )
+    rows["rows"][:, 2] = kind.stem_first
+    rows["rows"][:, 3] = stems
     rows["first"] = kind.piece_first, kind.leaf_first, 0, look
-    if posed.extra_look is not None:
-        rows["first"][:, 3] = kinds_count + posed.extra_look
+    rows["first"][:, 3] = looks_of(posed, look, kinds_count)
     rows["piece_limit"] = detail.piece_limit
     rows["leaves"] = np.stack(
         [detail.leaf_count, detail.leaf_cut, detail.leaf_fade, detail.leaf_scale], axis=1
@@ -148,8 +160,20 @@ def _placement_rows(
     return rows
 
 
+def phases(count: int, look: int) -> Doubles:
+    """(count,) random number of every placement of a kind, 0 to 1."""
+    return np.asarray((np.arange(count) * 0.7548776662 + 0.13 * look) % 1.0, np.float64)
+
+
+def looks_of(posed: PosedPlants, look: int, kinds_count: int) -> NDArray[np.int64]:
+    """(P,) look that every placement of a kind wears."""
+    if posed.extra_look is None:
+        return np.full(len(posed.position), look)
+    return kinds_count + np.asarray(posed.extra_look, np.int64)
+
+
 def _arrange(
-    rows: NDArray[np.void], centres: Doubles, radii: Doubles, mesh: NDArray[np.int32], view: View
+    rows: NDArray[np.void], centres: Doubles, radii: Doubles, mesh: Ints, links: Ints, view: View
 ) -> DrawList:
     """Order placements as shadows only, near, far; then give each its places among the posed items."""
     seen = _seen(centres, radii, view)
@@ -158,7 +182,7 @@ def _arrange(
     group = np.where(~seen, 0, np.where(casts, 1, 2))
     order = np.lexsort([distance, group])
     order = order[(seen | casts)[order]]
-    rows, seen, casts, mesh = rows[order], seen[order], casts[order], mesh[order]
+    rows, seen, casts, mesh, links = rows[order], seen[order], casts[order], mesh[order], links[order]
 
     piece_limit = rows["piece_limit"].astype(np.int64)
     piece_counts = np.concatenate([piece_limit[:, :1], piece_limit[:, 1:] - piece_limit[:, :-1]], axis=1)
@@ -168,14 +192,13 @@ def _arrange(
     leaf_out, leaf_ranges = _lay_out(by_mesh, seen, casts)
     rows["piece_out"] = piece_out
     rows["first"][:, 2] = np.take_along_axis(leaf_out, mesh[:, None].astype(np.int64), axis=1)[:, 0]
-    return DrawList(
-        rows,
-        piece_ranges,
-        leaf_ranges,
-        int(rows["rows"][:, 3].max(initial=0)),
-        int(rows["piece_limit"][:, BUCKETS - 1].max(initial=0)),
-        int(leaf_counts.max(initial=0)),
-    )
+    stem_counts = rows["rows"][:, 3].astype(np.int64)
+    rows["rows"][:, 0] = np.cumsum(links, dtype=np.int64) - links
+    rows["rows"][:, 1] = np.cumsum(stem_counts) - stem_counts
+    chunks = -(-np.stack([stem_counts, piece_limit[:, -1], leaf_counts], axis=1) // CHUNK)
+    rows["number"][:, 1:] = np.cumsum(chunks, axis=0) - chunks
+    stems, pieces, leaves = (int(count) for count in chunks.sum(axis=0))
+    return DrawList(rows, piece_ranges, leaf_ranges, (stems, pieces, leaves), links)
 
 
 def _seen(centres: Doubles, radii: Doubles | float, view: View) -> NDArray[np.bool_]:

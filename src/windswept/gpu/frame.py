@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from windswept.gpu.seating import Seating
 from windswept.plants.plant import Floats, Ints
 
 Vector = tuple[float, float, float]
@@ -29,7 +31,7 @@ class PosedPlants:
     """P placements of one kind of plant, as they are at one moment."""
 
     link: Floats | None
-    """(P, L, 8) ``Pose.link``; None where the frame's ``motion`` holds it."""
+    """(P, L, 8) ``Pose.link``; None where the frame's ``motion`` knows it."""
     position: Floats
     """(P, 3) roots in the world, m."""
     yaw: Floats
@@ -54,12 +56,12 @@ class Ground:
 
 @dataclass(frozen=True, slots=True)
 class CardMotion:
-    """How all placements are posed, where that is already on the card: nothing of it is uploaded."""
+    """How all placements move, where that is already on the card: nothing of it is uploaded."""
 
-    links: Any
-    """Buffer of ``LINK_POSE`` rows, kind after kind, placement after placement."""
+    pose: Callable[[Any, Seating], None]
+    """Records into a command encoder how the placements that have seats are posed at this moment."""
     speeds: Any
-    """Buffer of the mean wind speed in every placement's crown, m/s, in the same order."""
+    """Buffer of the mean wind speed in every placement's crown, m/s, kind after kind."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +90,7 @@ class Frame:
     wind: tuple[float, float] = (0.0, 0.0)
     """Mean horizontal wind, m/s: sways grass and drifts clouds."""
     motion: CardMotion | None = None
-    """Poses of all plants on the card; None where each kind's ``link`` is uploaded."""
+    """Of all plants on the card; None where each kind's ``link`` is uploaded."""
     balls: Floats = field(default_factory=lambda: np.zeros((0, 8), np.float32))
     """(n, 8) middle and radius, m, and quaternion of the balls that roll through the scene."""
     meadow: MeadowMotion | None = None

@@ -69,6 +69,7 @@ POSED_LEAF = LEAF
 BALL = np.dtype([("place", *REALS), ("rotation", *REALS)])
 """Of ``balls.wgsl``."""
 GRASS_BLADE = np.dtype([("root", *REALS), ("chance", *REALS)])
+LISTED = np.dtype([("counts", *COUNTS)])
 BATCH = np.dtype([("items", *COUNTS), ("scale", *REALS)])
 
 KIND = np.dtype([("ladder", *COUNTS), ("joints", *COUNTS), ("size", *REALS)])

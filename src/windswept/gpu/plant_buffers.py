@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from windswept.geometry.detail import DetailOrder, detail_order, stem_size
+from windswept.geometry.detail import DetailOrder, DetailRules, detail_order, stem_size
 from windswept.geometry.geometry import Geometry
 from windswept.geometry.leaves import LEAF_SHAPES
 from windswept.gpu import layouts
-from windswept.plants.plant import Floats, Look
+from windswept.gpu.pose_order import PoseOrder, pose_order
+from windswept.plants.plant import Floats, Look, Plant
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +21,7 @@ class Kind:
     """Where one kind of plant lies in the common buffers, and what detail needs of it."""
 
     order: DetailOrder
+    pose: PoseOrder
     stem_first: int
     stem_count: int
     piece_first: int
@@ -42,33 +44,38 @@ class PlantArrays:
     looks: NDArray[np.void]
 
 
-def plant_arrays(geometries: list[Geometry], link_bases: list[Floats], looks: list[Look]) -> PlantArrays:
+def plant_arrays(
+    plants: list[Plant], geometries: list[Geometry], looks: list[Look], rules: DetailRules
+) -> PlantArrays:
     """Bring all kinds into the card's layouts.
 
     Args:
-        geometries: one for each kind.
-        link_bases: (L, 3) joints at rest of each kind, m.
+        plants: one of each kind.
+        geometries: the drawn form of each.
         looks: one for each kind and then others, at most ``LOOK_LIMIT``.
+        rules: what may be spent: decides which poses come first.
     """
     kinds: list[Kind] = []
     stems = [np.zeros(0, layouts.STEM)]
     pieces = [np.zeros(0, layouts.PIECE)]
     leaves = [np.zeros(0, layouts.LEAF)]
     stem_first = piece_first = leaf_first = 0
-    for geometry, link_base in zip(geometries, link_bases, strict=True):
+    for plant, geometry in zip(plants, geometries, strict=True):
         order = detail_order(geometry)
-        stems.append(_stems(geometry, order))
-        pieces.append(_pieces(geometry, order, link_base))
-        leaves.append(_leaves(geometry, order, link_base))
+        pose = pose_order(geometry, plant.link_parent, order, rules)
+        stems.append(_stems(geometry, order, pose))
+        pieces.append(_pieces(geometry, order, pose, plant.link_base))
+        leaves.append(_leaves(geometry, order, pose, plant.link_base))
         centre, radius = _ball(geometry)
         kinds.append(
             Kind(
                 order,
+                pose,
                 stem_first,
                 geometry.stem_count,
                 piece_first,
                 leaf_first,
-                len(link_base),
+                plant.link_count,
                 centre,
                 radius,
             )
@@ -85,8 +92,8 @@ def plant_arrays(geometries: list[Geometry], link_bases: list[Floats], looks: li
     )
 
 
-def _stems(geometry: Geometry, order: DetailOrder) -> NDArray[np.void]:
-    """Stems in their own order; the piece they grow out of is named by its place in drawing order."""
+def _stems(geometry: Geometry, order: DetailOrder, pose: PoseOrder) -> NDArray[np.void]:
+    """Stems by rank; links and parents are named by rank, the piece they grow out of by its place in drawing order."""
     rank = np.empty(geometry.piece_count, np.int64)
     rank[order.piece_order] = np.arange(geometry.piece_count)
     rows = np.zeros(geometry.stem_count, layouts.STEM)
@@ -99,13 +106,13 @@ def _stems(geometry: Geometry, order: DetailOrder) -> NDArray[np.void]:
     depth = geometry.bulge_depth
     rows["attach"] = _columns(geometry.stem_attach_t, stem_size(geometry), geometry.stem_reach, depth)
     is_trunk = geometry.stem_parent < 0
-    parent = np.where(is_trunk, layouts.NONE, geometry.stem_parent)
+    parent = np.where(is_trunk, layouts.NONE, pose.stem_rank[geometry.stem_parent])
     piece = np.where(is_trunk, 0, rank[geometry.stem_attach_piece])
-    rows["rows"] = _columns(parent, geometry.stem_link, piece, geometry.bulges)
-    return rows
+    rows["rows"] = _columns(parent, pose.link_rank[geometry.stem_link], piece, geometry.bulges)
+    return rows[pose.stem_order]
 
 
-def _pieces(geometry: Geometry, order: DetailOrder, link_base: Floats) -> NDArray[np.void]:
+def _pieces(geometry: Geometry, order: DetailOrder, pose: PoseOrder, link_base: Floats) -> NDArray[np.void]:
     """Pieces in drawing order, control points relative to the joints of their links."""
     rows = np.zeros(geometry.piece_count, layouts.PIECE)
     points = geometry.piece_points - link_base[np.repeat(geometry.piece_link, 2, axis=1)]
@@ -114,11 +121,11 @@ def _pieces(geometry: Geometry, order: DetailOrder, link_base: Floats) -> NDArra
         rows[name] = _columns(*points[:, k].T, extra[k])
     rows["side0"] = _columns(*geometry.piece_side[:, 0].T, 0.0)
     rows["side1"] = _columns(*geometry.piece_side[:, 1].T, 0.0)
-    rows["rows"] = _columns(geometry.piece_stem, *geometry.piece_link.T, 0)
+    rows["rows"] = _columns(pose.stem_rank[geometry.piece_stem], *pose.link_rank[geometry.piece_link].T, 0)
     return rows[order.piece_order]
 
 
-def _leaves(geometry: Geometry, order: DetailOrder, link_base: Floats) -> NDArray[np.void]:
+def _leaves(geometry: Geometry, order: DetailOrder, pose: PoseOrder, link_base: Floats) -> NDArray[np.void]:
     """Leaves by rank, attachments relative to the joints of their links."""
     rows = np.zeros(geometry.leaf_count, layouts.LEAF)
     offset = geometry.leaf_position - link_base[geometry.leaf_link]
@@ -127,7 +134,7 @@ def _leaves(geometry: Geometry, order: DetailOrder, link_base: Floats) -> NDArra
     rows["axis"] = _columns(*geometry.leaf_axis.T, geometry.leaf_size[:, 1])
     rows["normal"] = _columns(*geometry.leaf_normal.T, geometry.leaf_openness)
     rows["outward"] = _columns(*geometry.leaf_outward.T, chance)
-    rows["rows"] = _columns(geometry.leaf_link, geometry.leaf_stem, 0, 0)
+    rows["rows"] = _columns(pose.link_rank[geometry.leaf_link], pose.stem_rank[geometry.leaf_stem], 0, 0)
     return rows[order.leaf_order]
 
 

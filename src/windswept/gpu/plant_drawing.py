@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from windswept.geometry.leaves import LeafMesh, leaf_mesh
 from windswept.gpu import layouts
-from windswept.gpu.buffers import UNIFORM, UNIFORM_STRIDE, filled
-from windswept.gpu.draw_list import DrawList, ItemRange
+from windswept.gpu.buffers import UNIFORM_STRIDE, filled
+from windswept.gpu.draw_plan import DRAWS, SHADOW_LEAF_STEP, DrawPlan
 from windswept.gpu.posing import Posing
 from windswept.gpu.wiring import (
     DRAWING,
@@ -43,8 +43,6 @@ LEAF_LIT = ("", "", "_lit")
 """Whether each leaf mesh is lit at its vertices."""
 LEAF_BATCH = 64
 """BATCH of ``leaves.wgsl``."""
-SHADOW_LEAF_STEP = 2
-"""Of so many leaves one throws a shadow, and one that much larger."""
 
 
 class PlantDrawing:
@@ -113,47 +111,39 @@ class PlantDrawing:
         count = kite.vertices.shape[1]
         pipeline = shadow_pipeline(device, shadows, "leaves", {"VERTICES": count})
         self._leaf_shadow = BatchedMesh(device, kite.triangles, count, LEAF_BATCH, pipeline)
-        self._batches = device.create_buffer(
-            size=UNIFORM_STRIDE * 2 * (len(STEM_GRIDS) + len(LEAF_STATIONS)), usage=UNIFORM
-        )
 
-    def upload(self, wanted: DrawList) -> None:
-        """Send which items each draw takes: stems, leaves, then the shadows of both."""
-        batches = [_seen(bucket) for bucket in wanted.pieces] + [_seen(mesh) for mesh in wanted.leaves]
-        batches += [_casting(bucket, 1) for bucket in wanted.pieces]
-        batches += [_casting(mesh, SHADOW_LEAF_STEP) for mesh in wanted.leaves]
-        rows = np.zeros((len(batches), UNIFORM_STRIDE), np.uint8)
-        for row, (first, count, step) in zip(rows, batches, strict=True):
-            batch = np.zeros(1, layouts.BATCH)
-            batch["items"] = first, count, step, 0
-            batch["scale"] = np.sqrt(step), 0.0, 0.0, 0.0
-            row[: layouts.BATCH.itemsize] = batch.view(np.uint8)
-        self._device.queue.write_buffer(self._batches, 0, rows)
+    @property
+    def meshes(self) -> Ints:
+        """(M, 4) draws of a ``DrawPlan``: stems and leaves, then the shadows of both."""
+        ranges = range(len(STEM_GRIDS) + len(LEAF_STATIONS))
+        picture = [mesh.row(1) for mesh in self._stems + self._leaves]
+        stem_shadows = [mesh.row(1) for mesh in self._stem_shadows]
+        no_shadows = [(0, 1, 1)] * (len(STEM_GRIDS) - len(stem_shadows))
+        leaf_shadows = [self._leaf_shadow.row(SHADOW_LEAF_STEP)] * len(LEAF_STATIONS)
+        rows = picture + stem_shadows + no_shadows + leaf_shadows
+        return np.column_stack([rows, [*ranges, *ranges]]).astype(np.int32)
 
-    def draw(self, render_pass: Any, wanted: DrawList) -> None:
+    def draw(self, render_pass: Any, plan: DrawPlan) -> None:
         """Record the draws into the picture; bind groups 0 and 2 are set."""
-        stem_group, leaf_groups = self._groups()
-        for slot, (mesh, bucket) in enumerate(zip(self._stems, wanted.pieces, strict=True)):
-            mesh.draw(render_pass, stem_group, slot, _seen(bucket)[1])
-        slots = range(len(STEM_GRIDS), len(STEM_GRIDS) + len(LEAF_STATIONS))
-        for slot, mesh, group, leaves in zip(slots, self._leaves, leaf_groups, wanted.leaves, strict=True):
-            mesh.draw(render_pass, group, slot, _seen(leaves)[1])
+        stem_group, leaf_groups = self._groups(plan)
+        groups = [stem_group] * len(self._stems) + leaf_groups
+        for slot, (mesh, group) in enumerate(zip(self._stems + self._leaves, groups, strict=True)):
+            mesh.draw_planned(render_pass, group, slot, plan.words, DRAWS)
 
-    def draw_shadows(self, render_pass: Any, wanted: DrawList) -> None:
+    def draw_shadows(self, render_pass: Any, plan: DrawPlan) -> None:
         """Record the draws into the shadow map; bind group 0 is set."""
-        stem_group, leaf_groups = self._groups()
+        stem_group, leaf_groups = self._groups(plan)
         first = len(STEM_GRIDS) + len(LEAF_STATIONS)
-        for slot, (mesh, bucket) in enumerate(zip(self._stem_shadows, wanted.pieces, strict=False)):
-            mesh.draw(render_pass, stem_group, first + slot, _casting(bucket, 1)[1])
+        for slot, mesh in enumerate(self._stem_shadows):
+            mesh.draw_planned(render_pass, stem_group, first + slot, plan.words, DRAWS)
         first += len(STEM_GRIDS)
-        for slot, leaves in enumerate(wanted.leaves):
-            count = _casting(leaves, SHADOW_LEAF_STEP)[1]
-            self._leaf_shadow.draw(render_pass, leaf_groups[-1], first + slot, count)
+        for slot in range(len(LEAF_STATIONS)):
+            self._leaf_shadow.draw_planned(render_pass, leaf_groups[-1], first + slot, plan.words, DRAWS)
 
-    def _groups(self) -> tuple[Any, list[Any]]:
+    def _groups(self, plan: DrawPlan) -> tuple[Any, list[Any]]:
         """Bind group 1 for stems, and for the leaves of each mesh; posed buffers may have grown."""
         posing = self._posing
-        batch = {"buffer": self._batches, "offset": 0, "size": layouts.BATCH.itemsize}
+        batch = {"buffer": plan.batches, "offset": 0, "size": layouts.BATCH.itemsize}
         stems = bind(
             self._device, self._layout, posing.stems, posing.posed_pieces.buffer, posing.looks, batch
         )
@@ -174,14 +164,26 @@ class BatchedMesh:
         self._batch = batch
         self._pipeline = pipeline
 
+    def row(self, step: int) -> tuple[int, int, int]:
+        """What a ``DrawPlan`` knows of it, drawn for one of ``step`` items."""
+        return self._index_count, self._batch, step
+
     def draw(self, render_pass: Any, group: Any, slot: int, items: int) -> None:
         """Record the draw of this many items out of a batch slot."""
         if items == 0:
             return
+        self._set(render_pass, group, slot)
+        render_pass.draw_indexed(self._index_count * min(self._batch, items), -(-items // self._batch))
+
+    def draw_planned(self, render_pass: Any, group: Any, slot: int, words: Any, first: int) -> None:
+        """Record the draw of a batch slot whose arguments stand in a buffer, 5 words a slot from ``first`` on."""
+        self._set(render_pass, group, slot)
+        render_pass.draw_indexed_indirect(words, 4 * (first + 5 * slot))
+
+    def _set(self, render_pass: Any, group: Any, slot: int) -> None:
         render_pass.set_pipeline(self._pipeline)
         render_pass.set_index_buffer(self._indices, "uint32")
         render_pass.set_bind_group(1, group, [slot * UNIFORM_STRIDE])
-        render_pass.draw_indexed(self._index_count * min(self._batch, items), -(-items // self._batch))
 
 
 def grid_triangles(rings: int, sides: int) -> Ints:
@@ -197,13 +199,3 @@ def _blade_rows(mesh: LeafMesh) -> NDArray[np.float32]:
     """(2 shapes V, 4) position and normal of every vertex, shape by shape."""
     both = np.stack([mesh.vertices, mesh.normals], axis=2).reshape(-1, 3)
     return np.pad(both, [(0, 0), (0, 1)])
-
-
-def _seen(items: ItemRange) -> tuple[int, int, int]:
-    """First item, count and step of what is in sight."""
-    return items.first + items.hidden, items.total - items.hidden, 1
-
-
-def _casting(items: ItemRange, step: int) -> tuple[int, int, int]:
-    """First item, count and step of what throws a shadow."""
-    return items.first, items.casters // step, step

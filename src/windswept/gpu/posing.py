@@ -9,18 +9,22 @@ import numpy as np
 from windswept.gpu import layouts
 from windswept.gpu.buffers import UNIFORM, GrowingBuffer, filled
 from windswept.gpu.draw_list import DrawList
-from windswept.gpu.frame import FLUTTER_SPEED, LARGEST_FLUTTER, CardMotion, PosedPlants
-from windswept.gpu.kernel import Kernel
+from windswept.gpu.draw_plan import LEAVES, PIECES, STEMS, DrawPlan
+from windswept.gpu.frame import PosedPlants
 from windswept.gpu.plant_buffers import PlantArrays
 from windswept.gpu.wiring import COMPUTE, READ, WRITE, bind, buffers_layout, compute_pipeline
 from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
 
-WORKGROUP = 64
-STAGES = ("offsets", "sum_shifts", "pose_pieces", "pose_leaves")
+STAGES = (("offsets", STEMS), ("sum_shifts", STEMS), ("pose_pieces", PIECES), ("pose_leaves", LEAVES))
+"""Entry points and where their workgroups stand in a plan."""
+MOST_BYTES = 1 << 30
+"""Of a buffer that grows with what frames want, whatever the card could bind."""
+Counts = tuple[int, int, int, int]
+"""Of link poses, shifted stems, posed pieces and posed leaves."""
 
 
 class Posing:
-    """Holds all plants at rest on the card and poses those of a draw list.
+    """Holds all plants at rest on the card and poses those of a draw plan.
 
     Args:
         device: the card.
@@ -29,88 +33,93 @@ class Posing:
     """
 
     def __init__(self, device: Any, frame_layout: Any, plants: PlantArrays) -> None:
-        self._device = device
-        self._layout = buffers_layout(device, COMPUTE, *[READ] * 5, *[WRITE] * 3, UNIFORM_BINDING)
+        self._device, self._kinds = device, plants.kinds
+        self._layout = buffers_layout(
+            device, COMPUTE, *[READ] * 5, *[WRITE] * 3, UNIFORM_BINDING, UNIFORM_BINDING
+        )
         pipeline_layouts = [frame_layout, self._layout]
-        self._pipelines = [compute_pipeline(device, pipeline_layouts, "curves", stage) for stage in STAGES]
+        self._stages = [
+            (compute_pipeline(device, pipeline_layouts, "curves", entry), word) for entry, word in STAGES
+        ]
         self._pieces = filled(device, plants.pieces)
         self._leaves = filled(device, plants.leaves)
         self.stems = filled(device, plants.stems)
         self.looks = filled(device, plants.looks, UNIFORM)
-        self.placements = GrowingBuffer(device, layouts.PLACEMENT)
         self.links = GrowingBuffer(device, layouts.LINK_POSE)
         self.shifts = GrowingBuffer(device, layouts.STEM_SHIFT)
         self.posed_pieces = GrowingBuffer(device, layouts.POSED_PIECE)
         self.posed_leaves = GrowingBuffer(device, layouts.POSED_LEAF)
-        self._flutter: Kernel | None = None
 
-    def upload(self, plants: tuple[PosedPlants, ...], shift_count: int, wanted: DrawList) -> None:
-        """Send the poses of all placements that are not on the card, and make room for what the draw list wants.
+    @property
+    def room(self) -> Counts:
+        """What there is room for."""
+        links, shifts, pieces, leaves = (store.rows for store in self._stores)
+        return links, shifts, pieces, leaves
+
+    def reserve(self, wanted: Counts) -> None:
+        """Makes room for what a frame poses.
+
+        Raises:
+            GraphicsError: the device cannot bind so much at once.
+        """
+        for store, rows in zip(self._stores, wanted, strict=True):
+            store.reserve(rows)
+
+    def affordable(self, wanted: Counts) -> Counts:
+        """As much of what is wanted as a buffer of this card may hold."""
+        limit = min(self._device.limits["max-storage-buffer-binding-size"], MOST_BYTES)
+        links, shifts, pieces, leaves = (
+            min(rows, limit // store.row_bytes) for rows, store in zip(wanted, self._stores, strict=True)
+        )
+        return links, shifts, pieces, leaves
+
+    def upload(self, plants: tuple[PosedPlants, ...], wanted: DrawList) -> None:
+        """Sends the poses that a draw list needs, and makes room for what it wants.
 
         Args:
             plants: placements of each kind.
-            shift_count: stems of all placements together.
             wanted: what will be posed.
         """
-        poses = [np.asarray(p.link, np.float32).reshape(-1, 8) for p in plants if p.link is not None]
-        self.links.reserve(sum(map(len, poses)))
-        first = 0
-        for rows in poses:
-            self.links.write(rows, first)
-            first += len(rows)
-        self.shifts.reserve(shift_count)
-        self.placements.reserve(len(wanted.placements))
-        self.placements.write(wanted.placements)
-        self.posed_pieces.reserve(wanted.piece_count)
-        self.posed_leaves.reserve(wanted.leaf_count)
+        self.reserve(wanted.counts)
+        poses = np.empty((wanted.counts[0], 8), np.float32)
+        placed = [len(posed.position) for posed in plants]
+        kind_first = np.cumsum([0, *placed])
+        numbers = wanted.placements["number"][:, 0].astype(np.int64)
+        kinds = np.searchsorted(kind_first, numbers, side="right") - 1
+        firsts = wanted.placements["rows"][:, 0]
+        for k, number, first, count in zip(kinds, numbers, firsts, wanted.links, strict=True):
+            own = np.asarray(plants[k].link, np.float32)[number - kind_first[k]]
+            np.take(own, self._kinds[k].pose.link_order[:count], axis=0, out=poses[first : first + count])
+        self.links.write(poses)
 
-    def encode(
-        self,
-        encoder: Any,
-        frame_group: Any,
-        wanted: DrawList,
-        motion: CardMotion | None,
-        timestamps: dict[str, Any],
-    ) -> None:
-        """Record the dispatches that pose a draw list.
+    def encode(self, encoder: Any, frame_group: Any, plan: DrawPlan, timestamps: dict[str, Any]) -> None:
+        """Records the dispatches that pose what a plan lists.
 
         Args:
             encoder: records them.
             frame_group: the frame's uniforms.
-            wanted: what is drawn.
-            motion: poses and winds that are on the card already.
+            plan: what is drawn.
             timestamps: what the pass is begun with.
         """
         group = bind(
             self._device,
             self._layout,
-            self.placements.buffer,
+            plan.placements,
             self.stems,
             self._pieces,
             self._leaves,
-            self.links.buffer if motion is None else motion.links,
-            self.shifts.buffer,
-            self.posed_pieces.buffer,
-            self.posed_leaves.buffer,
+            *(store.buffer for store in self._stores),
             self.looks,
+            plan.listed,
         )
-        reach = (wanted.stem_most, wanted.stem_most, wanted.piece_most, wanted.leaf_most)
         stage_pass = encoder.begin_compute_pass(**timestamps)
-        if motion is not None and len(wanted.placements):
-            self._flutter_kernel(motion).record(stage_pass, -(-len(wanted.placements) // WORKGROUP))
         stage_pass.set_bind_group(0, frame_group)
         stage_pass.set_bind_group(1, group)
-        for pipeline, items in zip(self._pipelines, reach, strict=True):
-            if items and len(wanted.placements):
-                stage_pass.set_pipeline(pipeline)
-                stage_pass.dispatch_workgroups(-(-items // WORKGROUP), len(wanted.placements))
+        for pipeline, word in self._stages:
+            stage_pass.set_pipeline(pipeline)
+            stage_pass.dispatch_workgroups_indirect(plan.words, 4 * word)
         stage_pass.end()
 
-    def _flutter_kernel(self, motion: CardMotion) -> Kernel:
-        """Kernel that lets leaves tremble by the winds on the card."""
-        resources = {"speeds": motion.speeds, "placements": self.placements.buffer}
-        if self._flutter is None:
-            constants = {"LARGEST_FLUTTER": LARGEST_FLUTTER, "FLUTTER_SPEED": FLUTTER_SPEED}
-            self._flutter = Kernel(self._device, "flutter", "flutter", resources, constants)
-        self._flutter.bind(resources)
-        return self._flutter
+    @property
+    def _stores(self) -> tuple[GrowingBuffer, ...]:
+        return self.links, self.shifts, self.posed_pieces, self.posed_leaves

@@ -15,10 +15,12 @@ from windswept.gpu import layouts
 from windswept.gpu.backdrop import Backdrop
 from windswept.gpu.balls import Balls
 from windswept.gpu.buffers import UNIFORM
+from windswept.gpu.culling import Culling, Tally, Told, told_of
 from windswept.gpu.daylight import EXTINCTION, daylight
 from windswept.gpu.device import is_software, shared_device
-from windswept.gpu.draw_list import DrawList, View, draw_list
-from windswept.gpu.frame import FLAT_GROUND, Frame, Ground
+from windswept.gpu.draw_list import View, draw_list
+from windswept.gpu.draw_plan import DrawPlan
+from windswept.gpu.frame import FLAT_GROUND, CardMotion, Frame, Ground
 from windswept.gpu.lighting import SHADOW_TEXELS, Lighting
 from windswept.gpu.matrices import camera_matrix, frustum_planes, shadow_ball, sun_matrix
 from windswept.gpu.meadow import MeadowDrawing
@@ -37,7 +39,7 @@ SAMPLES = 4
 SHADOW_REACH = (20.0, 120.0)
 """Least and greatest distance from the camera to which shadows are drawn, m; twice that of its target if between."""
 PICTURE_FORMAT = "rgba8unorm-srgb"
-STAGES = ("choose", "curves", "shadows", "blades", "picture")
+STAGES = ("choose", "cull", "curves", "shadows", "blades", "picture")
 """Of a frame, as they are timed."""
 
 
@@ -97,11 +99,8 @@ class Renderer:
         self._device = shared_device()
         self._rules = rules or (SOFTWARE_RULES if is_software(self._device) else DetailRules())
         self._ground = ground
-        arrays = plant_arrays(
-            geometries,
-            [plant.link_base for plant in plants],
-            [*(plant.look for plant in plants), *extra_looks],
-        )
+        looks = [*(plant.look for plant in plants), *extra_looks]
+        arrays = plant_arrays(plants, geometries, looks, self._rules)
         self.kinds = arrays.kinds
         self._frame_layout = buffers_layout(self._device, ALL_STAGES, UNIFORM_BINDING)
         self._uniforms = self._device.create_buffer(size=layouts.FRAME.itemsize, usage=UNIFORM)
@@ -110,6 +109,10 @@ class Renderer:
         self.posing = Posing(self._device, self._frame_layout, arrays)
         shared = (self._frame_layout, self._lighting.layout, colour_format, SAMPLES)
         self._plant_drawing = PlantDrawing(self._device, self.posing, *shared)
+        self._plan = DrawPlan(self._device, self._plant_drawing.meshes)
+        self.culling = Culling(self._device, self.kinds, self._rules, self._plan)
+        self._tally = Tally(self._device, self._plan)
+        self._told = Told((0, 0, 0, 0), 0, 0, 0, 0)
         self._backdrop = Backdrop(self._device, ground, *shared)
         self.meadow: MeadowDrawing | None = None
         if beds:
@@ -147,6 +150,8 @@ class Renderer:
     def draw(self, frame: Frame) -> NDArray[np.uint8]:
         """(height, width, 4) sRGB picture with alpha 255."""
         self.draw_into(self._picture.create_view(), frame)
+        if frame.motion is not None and self._has_grown(self._tally.now(self.culling.shortened)):
+            return self.draw(frame)
         width, height = self.size
         data = self._device.queue.read_texture(
             {"texture": self._picture},
@@ -155,21 +160,14 @@ class Renderer:
         )
         return np.frombuffer(data, np.uint8).reshape(height, width, 4)
 
-    def draw_into(self, view: Any, frame: Frame) -> DrawList:
+    def draw_into(self, view: Any, frame: Frame) -> Told:
         """Draw a frame into a texture view of this renderer's size and format.
 
         Returns:
-            What was drawn: the counts that a window shows.
+            What was drawn: the counts that a window shows; of a frame whose motion is on the card, a few frames late.
         """
         scene_view, uniforms = self._look(frame)
-        wanted = draw_list(self.kinds, frame.plants, scene_view, self._rules)
         self._device.queue.write_buffer(self._uniforms, 0, uniforms)
-        shifts = sum(
-            len(posed.position) * kind.stem_count
-            for posed, kind in zip(frame.plants, self.kinds, strict=True)
-        )
-        self.posing.upload(frame.plants, shifts, wanted)
-        self._plant_drawing.upload(wanted)
         eye = np.asarray(frame.camera.eye, np.float64)
         if self.meadow is None:
             self._backdrop.upload(eye, scene_view.planes)
@@ -180,14 +178,46 @@ class Renderer:
         encoder = self._device.create_command_encoder()
         if self.meadow is not None and frame.meadow is not None:
             self.meadow.choose(encoder, self._times.around("choose"))
-        around = self._times.around("curves")
-        self.posing.encode(encoder, self._frame_group, wanted, frame.motion, around)
-        self._encode_shadows(encoder, wanted)
+        if frame.motion is None:
+            self._list_plants(frame, scene_view)
+        else:
+            self._encode_plants(encoder, frame, frame.motion, scene_view)
+        self.posing.encode(encoder, self._frame_group, self._plan, self._times.around("curves"))
+        self._encode_shadows(encoder)
         if self.meadow is not None:
             self._encode_blades(encoder, self.meadow)
-        self._encode_picture(encoder, view, wanted)
+        self._encode_picture(encoder, view)
         self._device.queue.submit([encoder.finish()])
-        return wanted
+        if frame.motion is not None:
+            self._tally.submitted()
+        return self._told
+
+    def _list_plants(self, frame: Frame, view: View) -> None:
+        """Chooses what is drawn here, and sends it with its poses."""
+        wanted = draw_list(self.kinds, frame.plants, view, self._rules)
+        self.posing.upload(frame.plants, wanted)
+        self._plan.write(wanted)
+        self._told = told_of(wanted)
+
+    def _encode_plants(self, encoder: Any, frame: Frame, motion: CardMotion, view: View) -> None:
+        """Has the card choose what is drawn, and pose it; nothing of a placement is uploaded but when it is new."""
+        if self.culling.place(frame.plants):
+            self._has_grown(told_of(draw_list(self.kinds, frame.plants, view, self._rules)))
+        told = self._tally.late(self.culling.shortened)
+        if told is not None:
+            self._told = told
+            self._has_grown(told)
+        self.culling.record(encoder, view, self.posing.room, motion.speeds, self._times.around("cull"))
+        motion.pose(encoder, self.culling.seating(self.posing.links.buffer))
+        self._tally.copy(encoder)
+
+    def _has_grown(self, told: Told) -> bool:
+        """Makes room for what lacked some, as far as this card takes it; says whether that helps."""
+        wanted = self.posing.affordable(told.wanted)
+        lacks = any(rows > had for rows, had in zip(wanted, self.posing.room, strict=True))
+        if lacks:
+            self.posing.reserve(wanted)
+        return lacks
 
     @property
     def stage_milliseconds(self) -> dict[str, float]:
@@ -199,7 +229,7 @@ class Renderer:
         wanted = draw_list(self.kinds, frame.plants, self._look(frame)[0], self._rules)
         return wanted.piece_count, wanted.leaf_count
 
-    def _encode_shadows(self, encoder: Any, wanted: DrawList) -> None:
+    def _encode_shadows(self, encoder: Any) -> None:
         render_pass = encoder.begin_render_pass(
             color_attachments=[],
             depth_stencil_attachment={
@@ -211,7 +241,7 @@ class Renderer:
             **self._times.around("shadows"),
         )
         render_pass.set_bind_group(0, self._frame_group)
-        self._plant_drawing.draw_shadows(render_pass, wanted)
+        self._plant_drawing.draw_shadows(render_pass, self._plan)
         for drawing in self.beside:
             drawing.draw_shadows(render_pass)
         render_pass.end()
@@ -224,7 +254,7 @@ class Renderer:
         meadow.encode(compute_pass)
         compute_pass.end()
 
-    def _encode_picture(self, encoder: Any, view: Any, wanted: DrawList) -> None:
+    def _encode_picture(self, encoder: Any, view: Any) -> None:
         render_pass = encoder.begin_render_pass(
             color_attachments=[
                 {
@@ -245,7 +275,7 @@ class Renderer:
         )
         render_pass.set_bind_group(0, self._frame_group)
         render_pass.set_bind_group(2, self._lighting.group)
-        self._plant_drawing.draw(render_pass, wanted)
+        self._plant_drawing.draw(render_pass, self._plan)
         for drawing in self.beside:
             drawing.draw(render_pass)
         if self.meadow is None:

@@ -43,7 +43,8 @@ SHADER_SETS = {
     "fit_groups": ("motion", "rotation", "joints", "fit_groups"),
     "pose_links": ("motion", "rotation", "joints", "pose_links"),
     "crown": ("motion", "crown"),
-    "flutter": ("types", "flutter"),
+    "cull": ("cull_types", "scan", "cull"),
+    "cull_places": ("types", "scan", "cull_types", "cull_places"),
 }
 """Files of ``shaders/`` that make up each module, one after the other."""
 

@@ -10,8 +10,8 @@ from typing import Any
 
 from windswept.errors import GraphicsError
 from windswept.geometry.geometry import Geometry
+from windswept.gpu.culling import Told
 from windswept.gpu.device import shared_device
-from windswept.gpu.draw_list import DrawList
 from windswept.gpu.frame import FLAT_GROUND, Camera, Frame, Ground
 from windswept.gpu.renderer import Renderer
 from windswept.plants.plant import Look, Plant
@@ -119,7 +119,7 @@ class _LiveView:
         self._last = perf_counter()
         self._frame_time = 0.0
         self._pointer: tuple[float, float] | None = None
-        self._drawn: DrawList | None = None
+        self._drawn: Told | None = None
         self._frames = 0
         self._stages = ""
 
@@ -175,6 +175,6 @@ class _LiveView:
         rate = 1.0 / max(self._frame_time, 1e-6)
         drawn = self._drawn
         return (
-            f"{rate:.0f} frames/s, {len(drawn.placements)} plants, "
-            f"{drawn.piece_count} stem pieces, {drawn.leaf_count} leaves"
+            f"{rate:.0f} frames/s, {drawn.placements} plants, "
+            f"{drawn.pieces} stem pieces, {drawn.leaves} leaves"
         )

@@ -60,6 +60,6 @@ def branch_look_rows(
         stem = branches.stem[own]
         looks["shade"][own, 0] = geometry.piece_openness[geometry.stem_piece_start[stem], 0]
         looks["shade"][own, 1] = geometry.piece_openness[geometry.stem_piece_start[stem + 1] - 1, 1]
-        rows[own, 1] = card.stem_first + stem
+        rows[own, 1] = card.stem_first + card.pose.stem_rank[stem]
         rows[own, 2] = number
     return looks, rows

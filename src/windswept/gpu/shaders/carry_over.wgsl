@@ -1,6 +1,7 @@
 // States of placements that change level or slot: levels/carry_over.py on the card.
 // Set: motion + rotation + joints + carry_over.
-// `poses` serves as scratch between two pictures: motion and rotation of every link of a placement that joins.
+
+override LONGEST: u32 = 1u;   // links of the largest plant
 
 @group(0) @binding(0) var<uniform> kinds: array<Kind, 64>;
 @group(0) @binding(1) var<uniform> rungs: array<Rung, 800>;
@@ -10,16 +11,12 @@
 @group(0) @binding(5) var<storage, read> motions: array<Motion>;
 @group(0) @binding(6) var<storage, read> joins: array<u32>;   // how many stand in the tally
 @group(0) @binding(7) var<storage, read_write> state: array<vec4f>;
-@group(0) @binding(8) var<storage, read_write> poses: array<vec4f>;
+@group(0) @binding(8) var<storage, read_write> notes: array<vec4f>;   // motion and rotation of every link that joins
 @group(0) @binding(9) var<uniform> tally: vec4u;
-
-fn first_pose(kind: Kind, placement: u32) -> u32 {
-    return 2u * (kind.joints.z + (placement - kind.ladder.z) * kind.joints.y);
-}
 
 fn rotation_of(first: u32, link: u32) -> vec4f {
     if link == NONE { return vec4f(0.0, 0.0, 0.0, 1.0); }
-    return poses[first + 2u * link + 1u];
+    return notes[first + 2u * link + 1u];
 }
 
 // Angle and rate about the first axis, then the second, of a joint at the level that it leaves.
@@ -48,7 +45,7 @@ fn join(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) sprea
         let before = rungs[motion.origin.x];
         let after = rungs[motion.at.x];
         let kind = kinds[after.links.w];
-        let first = first_pose(kind, placement);
+        let first = 2u * k * LONGEST;
         let column = column_of(before, motion.origin.y);
         for (var i = 0u; i < kind.joints.y; i++) {
             let link = links[kind.joints.x + i];
@@ -57,8 +54,8 @@ fn join(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) sprea
             let rotations = mat2x4f(q_parent, rotation_of(first, listener.z));
             let joint = motion_before(before, column, listener, shapes[kind.joints.w + i], rotations, kind.size.y);
             let turn = joint.x * link.axis_1.xyz + joint.z * link.axis_2.xyz;
-            poses[first + 2u * i] = joint;
-            poses[first + 2u * i + 1u] = multiply(q_parent, from_rotation_vector(turn));
+            notes[first + 2u * i] = joint;
+            notes[first + 2u * i + 1u] = multiply(q_parent, from_rotation_vector(turn));
             let active_link = listeners[after.probes.z + i].x;
             if active_link != NONE { state[column_of(after, motion.at.y) + active_link * stride_of(after)] = joint; }
         }

@@ -1,6 +1,9 @@
 // Poses stems, pieces and leaves on the card; geometry/pose_curves.py is the same in NumPy.
 // Set: types + rotation + curves. A stem's shift is the sum of `offset` over its ancestors, and an offset needs only
-// unshifted curves, so three dispatches (offsets, shifts, then pieces and leaves) serve any depth.
+// unshifted curves, so three dispatches (offsets, shifts, then pieces and leaves) serve any depth. A workgroup takes a
+// chunk: up to CHUNK stems, pieces or leaves of one placement, whose row it finds by where each placement's chunks begin.
+
+const CHUNK = 64u;
 
 @group(1) @binding(0) var<storage, read> placements: array<Placement>;
 @group(1) @binding(1) var<storage, read> stems: array<Stem>;
@@ -11,6 +14,26 @@
 @group(1) @binding(6) var<storage, read_write> posed_pieces: array<PosedPiece>;
 @group(1) @binding(7) var<storage, read_write> posed_leaves: array<PosedLeaf>;
 @group(1) @binding(8) var<uniform> looks: array<Look, 64>;
+@group(1) @binding(9) var<uniform> listed: Listed;
+
+// Row of a placement, and the rank of what an invocation takes of it.
+struct Item {
+    row: u32,
+    rank: u32,
+}
+
+// `column` of Placement.number counts the chunks; the last placement that begins at or before a chunk owns it.
+fn item_of(group: vec3u, spread: vec3u, lane: u32, column: u32) -> Item {
+    let chunk = group.x + group.y * spread.x;
+    if chunk >= listed.counts[column] { return Item(NONE, 0u); }
+    var low = 0u;
+    var high = listed.counts.x;
+    while high - low > 1u {
+        let middle = (low + high) / 2u;
+        if placements[middle].number[column] <= chunk { low = middle; } else { high = middle; }
+    }
+    return Item(low, CHUNK * (chunk - placements[low].number[column]) + lane);
+}
 
 fn carry(link: u32, offset: vec3f) -> vec3f {
     let pose = links[link];
@@ -33,10 +56,15 @@ fn perpendicular(v: vec3f, direction: vec3f) -> vec3f {
 }
 
 @compute @workgroup_size(64)
-fn offsets(@builtin(global_invocation_id) id: vec3u) {
-    let placement = placements[id.y];
-    if id.x >= placement.rows.w { return; }
-    let stem = stems[placement.rows.z + id.x];
+fn offsets(
+    @builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) spread: vec3u, @builtin(local_invocation_index) lane: u32
+) {
+    let item = item_of(group, spread, lane, 1u);
+    if item.row == NONE { return; }
+    let placement = placements[item.row];
+    let rank = item.rank;
+    if rank >= placement.rows.w { return; }
+    let stem = stems[placement.rows.z + rank];
     var offset = vec3f(0.0);
     if stem.rows.x != NONE {
         let piece = pieces[placement.first.x + stem.rows.z];
@@ -48,20 +76,25 @@ fn offsets(@builtin(global_invocation_id) id: vec3u) {
             + 3.0 * s * t * t * carry(end, piece.p2.xyz) + t * t * t * carry(end, piece.p3.xyz);
         offset = on_parent - links[placement.rows.x + stem.rows.y].position.xyz;
     }
-    shifts[placement.rows.y + id.x].offset = vec4f(offset, 0.0);
+    shifts[placement.rows.y + rank].offset = vec4f(offset, 0.0);
 }
 
 @compute @workgroup_size(64)
-fn sum_shifts(@builtin(global_invocation_id) id: vec3u) {
-    let placement = placements[id.y];
-    if id.x >= placement.rows.w { return; }
+fn sum_shifts(
+    @builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) spread: vec3u, @builtin(local_invocation_index) lane: u32
+) {
+    let item = item_of(group, spread, lane, 1u);
+    if item.row == NONE { return; }
+    let placement = placements[item.row];
+    let rank = item.rank;
+    if rank >= placement.rows.w { return; }
     var total = vec4f(0.0);
-    var stem = id.x;
+    var stem = rank;
     while stem != NONE {
         total += shifts[placement.rows.y + stem].offset;
         stem = stems[placement.rows.z + stem].rows.x;
     }
-    shifts[placement.rows.y + id.x].total = total;
+    shifts[placement.rows.y + rank].total = total;
 }
 
 // Row of `posed_pieces` that piece `rank` of a placement is drawn from: buckets stand one after the other.
@@ -75,10 +108,15 @@ fn piece_row(placement: Placement, rank: u32) -> u32 {
 }
 
 @compute @workgroup_size(64)
-fn pose_pieces(@builtin(global_invocation_id) id: vec3u) {
-    let placement = placements[id.y];
-    if id.x >= placement.piece_limit.w { return; }
-    let piece = pieces[placement.first.x + id.x];
+fn pose_pieces(
+    @builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) spread: vec3u, @builtin(local_invocation_index) lane: u32
+) {
+    let item = item_of(group, spread, lane, 2u);
+    if item.row == NONE { return; }
+    let placement = placements[item.row];
+    let rank = item.rank;
+    if rank >= placement.piece_limit.w { return; }
+    let piece = pieces[placement.first.x + rank];
     let stem = stems[placement.rows.z + piece.rows.x];
     let shift = shifts[placement.rows.y + piece.rows.x].total.xyz;
     let start = placement.rows.x + piece.rows.y;
@@ -100,7 +138,7 @@ fn pose_pieces(@builtin(global_invocation_id) id: vec3u) {
     posed.side1 = vec4f(perpendicular(side0 + side2, normalize(p2 - p1)), placement.heading.z);
     posed.side2 = vec4f(perpendicular(side2, normalize(p3 - p2)), 0.0);
     posed.rows = vec4u(placement.rows.z + piece.rows.x, placement.first.w, 0u, 0u);
-    posed_pieces[piece_row(placement, id.x)] = posed;
+    posed_pieces[piece_row(placement, rank)] = posed;
 }
 
 struct Blade {
@@ -120,10 +158,15 @@ fn fluttered(axis: vec3f, normal: vec3f, amplitude: f32, phase: f32) -> Blade {
 }
 
 @compute @workgroup_size(64)
-fn pose_leaves(@builtin(global_invocation_id) id: vec3u) {
-    let placement = placements[id.y];
-    if f32(id.x) >= placement.leaves.x { return; }
-    let leaf = leaves[placement.first.y + id.x];
+fn pose_leaves(
+    @builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) spread: vec3u, @builtin(local_invocation_index) lane: u32
+) {
+    let item = item_of(group, spread, lane, 3u);
+    if item.row == NONE { return; }
+    let placement = placements[item.row];
+    let rank = item.rank;
+    if f32(rank) >= placement.leaves.x { return; }
+    let leaf = leaves[placement.first.y + rank];
     let link = placement.rows.x + leaf.rows.x;
     let rotation = links[link].rotation;
     let shift = shifts[placement.rows.y + leaf.rows.y].total.xyz;
@@ -134,7 +177,7 @@ fn pose_leaves(@builtin(global_invocation_id) id: vec3u) {
         amplitude,
         leaf.outward.w + placement.heading.z,
     );
-    let shrink = clamp((placement.leaves.y - f32(id.x)) / placement.leaves.z, 0.0, 1.0);
+    let shrink = clamp((placement.leaves.y - f32(rank)) / placement.leaves.z, 0.0, 1.0);
     let scale = placement.leaves.w * shrink;
     var posed: PosedLeaf;
     posed.position = vec4f(placed(placement, carry(link, leaf.position.xyz) + shift), leaf.position.w * scale);
@@ -142,5 +185,5 @@ fn pose_leaves(@builtin(global_invocation_id) id: vec3u) {
     posed.normal = vec4f(blade.normal, leaf.normal.w);
     posed.outward = vec4f(turned(placement, rotate(rotation, leaf.outward.xyz)), leaf.outward.w);
     posed.rows = vec4u(placement.first.w, 0u, 0u, 0u);
-    posed_leaves[placement.first.z + id.x] = posed;
+    posed_leaves[placement.first.z + rank] = posed;
 }

@@ -11,8 +11,10 @@
 @group(0) @binding(6) var<storage, read> motions: array<Motion>;
 @group(0) @binding(7) var<storage, read> joins: array<u32>;
 @group(0) @binding(8) var<storage, read_write> state: array<vec4f>;
-@group(0) @binding(9) var<storage, read> poses: array<vec4f>;   // motion and rotation of every link, from `join`
+@group(0) @binding(9) var<storage, read> notes: array<vec4f>;   // motion and rotation of every link, from `join`
 @group(0) @binding(10) var<uniform> tally: vec4u;
+
+override LONGEST: u32 = 1u;   // links of the largest plant
 
 const MOST_ROUNDS = 8u;
 // Pull of the pressure towards none, over that of its joints: directions that they hardly feel must not wander.
@@ -93,7 +95,7 @@ fn solve(sum: Equations, pressure: vec3f) -> mat2x3f {
 // Pressure and rate of a group whose joints are a range of the plant's links.
 fn fitted(lane: u32, group: Group, carrier: u32, kind: Kind, first: u32) -> mat2x3f {
     var q = vec4f(0.0, 0.0, 0.0, 1.0);
-    if carrier != NONE { q = poses[first + 2u * carrier + 1u]; }
+    if carrier != NONE { q = notes[first + 2u * carrier + 1u]; }
     var pressure = vec3f(0.0);
     var rate = vec3f(0.0);
     for (var round = 0u; round < MOST_ROUNDS; round++) {
@@ -102,8 +104,8 @@ fn fitted(lane: u32, group: Group, carrier: u32, kind: Kind, first: u32) -> mat2
         for (var i = group.rows.y + lane; i < group.rows.y + group.rows.z; i += 64u) {
             let parent = links[kind.joints.x + i].rows.x;
             var q_parent = vec4f(0.0, 0.0, 0.0, 1.0);
-            if parent != NONE { q_parent = poses[first + 2u * parent + 1u]; }
-            let joint = poses[first + 2u * i];
+            if parent != NONE { q_parent = notes[first + 2u * parent + 1u]; }
+            let joint = notes[first + 2u * i];
             part = add_joint(part, shapes[kind.joints.w + i], joint, q_parent, q, pressure, kind.size.y);
         }
         let change = solve(add_up(lane, part), pressure);
@@ -125,7 +127,7 @@ fn fit_groups(
         if group.y >= rung.groups.y { continue; }
         let kind = kinds[rung.links.w];
         let row = groups[rung.groups.x + group.y];
-        let first = 2u * (kind.joints.z + (joins[k] - kind.ladder.z) * kind.joints.y);
+        let first = 2u * k * LONGEST;
         let carrier = listeners[rung.probes.z + row.rows.y].z;
         let pressure = fitted(lane, row, carrier, kind, first);
         let place = column_of(rung, motion.at.y) + (rung.links.y + 2u * group.y) * stride_of(rung);

@@ -2,10 +2,12 @@
 // `compact` a rung, `settle` a placement, `plan` once, `shift` a placement that takes another's slot. Nothing depends
 // on the order in which invocations run: only the places of moves and joins in their lists do.
 
+override MOST_JOINS: u32 = 0xffffffffu;   // that join a level at once: those after them wait for the next time
+
 struct Tally {
     shifts: atomic<u32>,
     joins: atomic<u32>,
-    refused: atomic<u32>,   // placements that had to stay where they are: no room at the level given
+    refused: atomic<u32>,   // placements that had to stay where they are: no room at the level given, or not yet their turn
     unused: u32,
 }
 
@@ -65,7 +67,7 @@ fn comes(rung: u32, placement: u32) -> bool {
 fn list_joins(rung: u32, lane: u32, stay: u32) -> u32 {
     let kind = kinds[rungs[rung].links.w];
     let run = run_of(lane, kind.ladder.w);
-    let room = rungs[rung].room.w - stay;
+    let room = min(rungs[rung].room.w - stay, MOST_JOINS);
     var count = 0u;
     for (var i = run.x; i < run.y; i++) { count += select(0u, 1u, comes(rung, kind.ladder.z + i)); }
     var place = sum_before(lane, count);

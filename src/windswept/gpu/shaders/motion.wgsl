@@ -3,7 +3,7 @@
 
 struct Kind {
     ladder: vec4u,      // first rung; rungs; first placement; placements
-    joints: vec4u,      // first link row of its finest rung; links; first link pose; first shape
+    joints: vec4u,      // first link row of its finest rung; links; 0; first shape
     size: vec4f,        // radius of the ball that holds the plant, m; pressure up to which shapes hold, (m/s)^2; 0; 0
 }
 

@@ -17,12 +17,12 @@ struct Frame {
 struct Placement {
     position: vec4f,      // root, m; cosine of the yaw
     heading: vec4f,       // sine of the yaw; flutter, rad; phase of the placement, rad; stem size at which stems end, m
-    rows: vec4u,          // first link pose; first stem shift; first stem; stems
+    rows: vec4u,          // first link pose; first stem shift; first stem; stems that are shifted, from the first rank on
     first: vec4u,         // first piece; first leaf; first posed leaf; look
     piece_limit: vec4u,   // pieces up to each bucket's end, counted from the placement's first
     piece_out: vec4u,     // first posed piece of the placement in each bucket
     leaves: vec4f,        // leaves drawn; rank at which leaves end; ranks over which they shrink; scale
-    number: vec4u,        // which of all placements this is; 0; 0; 0
+    number: vec4u,        // which of all placements this is; first chunk of its stems; of its pieces; of its leaves
 }
 
 struct Look {
@@ -43,6 +43,7 @@ struct Stem {
     rows: vec4u,      // parent stem or NONE; first link; parent's piece; bulges
 }
 
+// Stems, links and poses of a plant stand by rank: gpu/pose_order.py.
 struct Piece {
     p0: vec4f,     // control points from the joint of the link that carries them, m; p0.w: span start
     p1: vec4f,     // .w: span end
@@ -83,6 +84,11 @@ struct PosedLeaf {
     normal: vec4f,    // unit; openness
     outward: vec4f,   // unit; a random number in 0..1
     rows: vec4u,      // look; 0; 0; 0
+}
+
+// How much a frame poses: curves.wgsl takes it chunk by chunk.
+struct Listed {
+    counts: vec4u,  // placements; chunks of stems; of pieces; of leaves
 }
 
 struct Batch {

@@ -34,7 +34,7 @@ class CardState:
     """
 
     def __init__(self, device: Any, arrays: RungArrays, seats: Seats, heights: Floats) -> None:
-        self._device, self._arrays = device, arrays
+        self._device, self.arrays = device, arrays
         self._waves, self._gusts = GrowingBuffer(device, layouts.WAVE), GrowingBuffer(device, layouts.GUST)
         placements, rungs = len(arrays.rooted), len(arrays.rungs)
         self.resources: dict[str, Any] = {
@@ -59,7 +59,7 @@ class CardState:
             "stack": room(device, layouts.ROW, arrays.stack_rows),
             "wind": room(device, layouts.ROW, arrays.wind_rows),
             "speeds": room(device, np.dtype("<f4"), placements),
-            "poses": room(device, layouts.LINK_POSE, arrays.pose_rows),
+            "notes": room(device, layouts.LINK_POSE, arrays.joins_together * arrays.longest),
             "moment": room(device, layouts.MOMENT, 1, UNIFORM),
             "ends": room(device, layouts.AIR, 2, UNIFORM),
             "waves": self._waves.buffer,
@@ -69,7 +69,7 @@ class CardState:
 
     def _dispatches(self) -> NDArray[np.uint32]:
         """Workgroups along x, y and z of everything that the card itself dispatches; x is up to the card."""
-        rungs = self._arrays.rungs
+        rungs = self.arrays.rungs
         rows = np.ones((5, 3), np.uint32)
         rows[:, 0] = 0
         rows[WIND // 3, 1:] = rungs["probes"][:, 1].max(initial=0), 2

@@ -18,6 +18,12 @@ NARROWEST = 8
 """Blocks of few placements are as wide as these, rounded up to so many: whole lines of a card's cache."""
 
 
+NOTES = 32
+"""Bytes that are noted of every link of a placement while it changes its level."""
+NOTE_BYTES = 1 << 28
+"""Of all notes at most, whatever a buffer may have."""
+
+
 @dataclass(frozen=True, slots=True)
 class BlockSize:
     """Rows of ``vec4f`` that one lane of a block takes at each of R rungs."""
@@ -85,3 +91,19 @@ def room_for(size: BlockSize, placements: Counts, coarsest: NDArray[np.bool_], l
         middle = 0.5 * (low + high)
         low, high = (middle, high) if fits(middle) else (low, middle)
     return blocks(low) * width
+
+
+def joins_for(placements: int, longest: int, rungs: int, limit: int) -> tuple[int, int]:
+    """How many placements may join each rung at once, and all rungs together; the others wait for the next time.
+
+    Args:
+        placements: of all kinds.
+        longest: links of the largest plant.
+        rungs: of all kinds.
+        limit: bytes that a buffer may have.
+    """
+    together = min(limit, NOTE_BYTES) // (NOTES * longest)
+    if placements <= together:
+        return placements, placements
+    each = max(together // rungs, 1)
+    return each, min(each * rungs, placements)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from windswept.errors import GraphicsError
 from windswept.gpu import layouts
 from windswept.gpu.springs.kinds import GrownKind
-from windswept.gpu.springs.room import block_size, room_for
+from windswept.gpu.springs.room import block_size, joins_for, room_for
 from windswept.gpu.springs.rows import Rows, group_rows, link_rows, listener_rows, shape_rows
 from windswept.motion import Level
 from windswept.plants.plant import Floats
@@ -45,7 +45,12 @@ class RungArrays:
     member_rows: int
     """Slots of all rungs."""
     pose_rows: int
-    """Link poses of all placements."""
+    """Links of all placements."""
+    longest: int
+    """Links of the largest plant."""
+    joins_each: int
+    """Placements that may join a rung at once, and all rungs together."""
+    joins_together: int
 
 
 def rung_arrays(kinds: list[GrownKind], limit: int) -> RungArrays:
@@ -70,6 +75,11 @@ def rung_arrays(kinds: list[GrownKind], limit: int) -> RungArrays:
     rungs = _rung_rows(kinds, levels, owner, limit)
     size = block_size(levels)
     room = rungs["room"][:, 3].astype(np.int64)
+    placed, longest = (
+        sum(kind.placements.count for kind in kinds),
+        max(kind.model.link_count for kind in kinds),
+    )
+    joins_each, joins_together = joins_for(placed, longest, len(levels), limit)
     return RungArrays(
         kinds=_kind_rows(kinds, rungs),
         rungs=rungs,
@@ -85,6 +95,9 @@ def rung_arrays(kinds: list[GrownKind], limit: int) -> RungArrays:
         wind_rows=int((room * size.wind).sum()),
         member_rows=int(room.sum()),
         pose_rows=sum(kind.placements.count * kind.model.link_count for kind in kinds),
+        longest=longest,
+        joins_each=joins_each,
+        joins_together=joins_together,
     )
 
 
@@ -105,6 +118,9 @@ def _nothing() -> RungArrays:
         wind_rows=0,
         member_rows=0,
         pose_rows=0,
+        longest=1,
+        joins_each=0,
+        joins_together=0,
     )
 
 
@@ -145,8 +161,7 @@ def _kind_rows(kinds: list[GrownKind], rungs: Rows) -> Rows:
     first_rung = _starts(rung_count)
     rows["ladder"] = np.stack([first_rung, rung_count, _starts(placement_count), placement_count], axis=1)
     first_link = rungs["links"][first_rung, 0]
-    poses = _starts(placement_count * joint_count)
-    rows["joints"] = np.stack([first_link, joint_count, poses, _starts(joint_count)], axis=1)
+    rows["joints"] = np.stack([first_link, joint_count, 0 * joint_count, _starts(joint_count)], axis=1)
     rows["size"][:, :2] = [(kind.radius, kind.levels[-1].shape_limit) for kind in kinds]
     return rows
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -14,10 +15,12 @@ from windswept.gpu.blades import CardMeadow
 from windswept.gpu.device import shared_device
 from windswept.gpu.failures import card_errors
 from windswept.gpu.frame import CardMotion
+from windswept.gpu.seating import Seating
 from windswept.gpu.springs.air import air_rows
 from windswept.gpu.springs.card_field import CardField
 from windswept.gpu.springs.card_state import CardState
 from windswept.gpu.springs.kinds import GrownKind
+from windswept.gpu.springs.pose_seats import seats_for_all
 from windswept.gpu.springs.rung_arrays import rung_arrays
 from windswept.gpu.springs.seats import first_seats
 from windswept.gpu.springs.turns import steps_in_turns
@@ -119,18 +122,19 @@ class GpuSimulation:
         return self
 
     def motion(self) -> CardMotion:
-        """Poses every link of every placement as of now, for a ``Frame``: valid until the simulation advances."""
+        """How all placements move now, for a ``Frame`` to pose whom it draws: valid until the simulation advances."""
         with card_errors("posing plants"):
             self.card.write_moment(self._moment(0, 0))
-            self._record(self._walk.pose)
-        return CardMotion(self.card.resources["poses"], self.card.resources["speeds"])
+        return CardMotion(self._walk.pose, self.card.resources["speeds"])
 
     @property
     def pose(self) -> list[Pose]:
         """Where every link of every kind is at this moment, read back."""
-        self.motion()
-        with card_errors("reading poses"):
-            rows = self.card.read("poses", "<f4").reshape(-1, 8)
+        motion = self.motion()
+        with card_errors("posing plants"):
+            self._record(lambda encoder: motion.pose(encoder, self._seats_for_all))
+            data = self._device.queue.read_buffer(self._seats_for_all.poses)
+        rows = np.frombuffer(data, np.float32).reshape(-1, 8)
         poses, first = [], 0
         for kind in self.kinds:
             shape = (kind.placements.count, kind.model.link_count, 8)
@@ -138,6 +142,10 @@ class GpuSimulation:
             poses.append(Pose(rows[first : first + size].reshape(shape)))
             first += size
         return poses
+
+    @cached_property
+    def _seats_for_all(self) -> Seating:
+        return seats_for_all(self._device, self.kinds)
 
     @property
     def wind_speeds(self) -> list[Floats]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from windswept.gpu.kernel import Kernel
+from windswept.gpu.seating import Seating
 from windswept.gpu.springs.card_state import JOIN, JOIN_GROUPS, SHIFT, STEP, WIND, CardState
 from windswept.gpu.stage_times import StageTimes
 from windswept.motion.lanes import WIDTH
@@ -27,7 +28,7 @@ class Walk:
     """Shader sets and entry points that step a block, one after the other."""
 
     def __init__(self, device: Any, card: CardState, rungs: int, placements: int) -> None:
-        self._card, self._rungs = card, rungs
+        self._device, self._card, self._rungs = device, card, rungs
         self._crowd = -(-placements // WORKGROUP)
         self.times = StageTimes(device, STAGES)
 
@@ -37,17 +38,19 @@ class Walk:
         self._wish = kernel("choose", "wish", {"REGISTER": WIDTH})
         self._rank = kernel("choose", "rank", {"REGISTER": WIDTH})
         self._give = kernel("choose", "give", {"REGISTER": WIDTH})
-        self._compact = kernel("members", "compact")
+        arrays = card.arrays
+        noted: dict[str, float] = {"LONGEST": arrays.longest}
+        self._compact = kernel("members", "compact", {"MOST_JOINS": arrays.joins_each})
         self._settle = kernel("members", "settle")
         self._plan = kernel("plan", "plan")
         self._shift = kernel("members", "shift")
         self._shift_state = kernel("shift_state", "shift_state")
-        self._join = kernel("carry_over", "join")
-        self._fit_groups = kernel("fit_groups", "fit_groups")
+        self._join = kernel("carry_over", "join", noted)
+        self._fit_groups = kernel("fit_groups", "fit_groups", noted)
         self._sample = kernel("wind", "sample")
         self._crown = kernel("crown", "crown_speed")
         self._steppers = [kernel(*stepper) for stepper in self.steppers]
-        self._pose = kernel("pose_links", "pose_block")
+        self._pose: Kernel | None = None
 
     def rebind_wind(self) -> None:
         """Takes the buffers of a wind with more sources."""
@@ -91,8 +94,13 @@ class Walk:
             stepper.record_planned(compute_pass, self._card.resources["dispatches"], STEP)
         compute_pass.end()
 
-    def pose(self, encoder: Any) -> None:
-        """Writes where every link of every placement is now."""
+    def pose(self, encoder: Any, seating: Seating) -> None:
+        """Writes where the links of the placements that have seats are now."""
+        seats = {"seats": seating.seats, "ranks": seating.ranks, "poses": seating.poses}
+        resources = self._card.resources | seats
+        if self._pose is None:
+            self._pose = Kernel(self._device, "pose_links", "pose_seated", resources)
+        self._pose.bind(resources)
         compute_pass = encoder.begin_compute_pass(**self.times.around("pose"))
-        self._pose.record_planned(compute_pass, self._card.resources["dispatches"], STEP)
+        self._pose.record_planned(compute_pass, seating.dispatches, 0)
         compute_pass.end()
