@@ -6,14 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 
+from windswept.gpu import layouts
 from windswept.gpu.springs.kinds import kinds_of
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.levels import Ladder
 from windswept.plants.plant import Material, Plant
+from windswept.scene.level_set import LevelSet
 from windswept.scene.load_scene import load_scene
 from windswept.scene.moving_kind import MovingKind
 from windswept.scene.scene import Placements, PlantKind, Scene
 from windswept.scene.simulation import Simulation
+from windswept.wind.field import start_field
 from windswept.wind.gusts import Gust
 
 SOFT = Material(damping_ratio=0.2, youngs_modulus=2e8)
@@ -45,6 +48,8 @@ def both(scene: Scene, ladders: list[Ladder], plants: list[Plant]) -> tuple[Simu
         for plant, placements, ladder in zip(plants, scene.placements, ladders, strict=True)
     ]
     simulation.change_levels(at_once=True)
+    if scene.field is not None:
+        simulation.field = start_field(scene.field, scene.wind)
     simulation._sample_winds()
     return simulation, GpuSimulation(scene, kinds_of(simulation), picture_height=1080)
 
@@ -62,3 +67,21 @@ def gaps(simulation: Simulation, card: GpuSimulation) -> np.ndarray:
             for kind, theirs, ours in zip(simulation.kinds, simulation.pose, card.pose, strict=True)
         ]
     )
+
+
+def winds_on_card(card: GpuSimulation, rung: int) -> np.ndarray:
+    """(P, B, 2, 4) what the card holds of the wind at one rung."""
+    row = card._arrays.rungs[rung]
+    probes, room = int(row["probes"][1]), int(row["room"][3])
+    count = room * probes * 2
+    rows = card.card.read("wind", "<f4", 4 * int(row["room"][2]), 4 * count)
+    width = min(room, layouts.LANES)
+    by_lane = rows.reshape(room // width, probes, 2, width, 4)
+    members = int(card.card.read("populations", "<u4")[rung])
+    return by_lane.transpose(0, 3, 1, 2, 4).reshape(room, probes, 2, 4)[:members]
+
+
+def winds_of_cpu(level_set: LevelSet) -> np.ndarray:
+    """(P, B, 2, 3) what a set on the CPU holds of it."""
+    assert level_set.winds is not None
+    return np.stack(level_set.winds, axis=2)

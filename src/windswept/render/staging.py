@@ -87,7 +87,7 @@ def frame_now(simulation: Running, view: View | None = None, level_colours: bool
         sun=_triple(scene.sun_direction),
         time=simulation.time,
         wind=(float(x), float(y)),
-        motion=simulation.motion() if isinstance(simulation, GpuSimulation) else None,
+        motion=simulation.motion() if isinstance(simulation, GpuSimulation) and simulation.kinds else None,
         balls=balls_now(scene, simulation.time),
         meadow=meadow_motion(simulation),
     )

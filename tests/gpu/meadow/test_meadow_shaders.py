@@ -99,7 +99,7 @@ def test_poses_on_the_card_are_those_of_the_processor(whole: Any, windy: Simulat
             mine = mine[np.argsort(mine[:, 0])]
             got = joints_of(posed, mine, pose.joint.shape[1] - 1)
             worst = np.linalg.norm(got - pose.joint, axis=2).max()
-            assert worst < 2e-3 * float(blades.kind.table.length.sum()) + 5e-4
+            assert worst < 1e-3 * float(blades.kind.table.length.sum()) + 1e-4
             number += 1
 
 

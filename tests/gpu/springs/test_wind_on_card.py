@@ -7,11 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stands import both, only, stand_of
-from windswept.gpu import layouts
-from windswept.gpu.springs.simulation import GpuSimulation
+from stands import both, only, stand_of, winds_of_cpu, winds_on_card
 from windswept.plants.air import reconfiguration
-from windswept.scene.level_set import LevelSet
 from windswept.scene.terrain import hilly_terrain
 from windswept.wind.gusts import Gust
 from windswept.wind.mean import MeanWind, Profile
@@ -42,23 +39,6 @@ WINDS = {
 }
 
 
-def sampled(card: GpuSimulation, rung: int) -> np.ndarray:
-    """(P, B, 2, 4) what the card holds of the wind at one rung."""
-    row = card._arrays.rungs[rung]
-    probes, room = int(row["probes"][1]), int(row["room"][3])
-    count = room * probes * 2
-    rows = card.card.read("wind", "<f4", 4 * int(row["room"][2]), 4 * count)
-    width = min(room, layouts.LANES)
-    by_lane = rows.reshape(room // width, probes, 2, width, 4)
-    members = int(card.card.read("populations", "<u4")[rung])
-    return by_lane.transpose(0, 3, 1, 2, 4).reshape(room, probes, 2, 4)[:members]
-
-
-def sampled_by_cpu(level_set: LevelSet) -> np.ndarray:
-    assert level_set.winds is not None
-    return np.stack(level_set.winds, axis=2)
-
-
 @pytest.mark.parametrize("name", WINDS)
 @pytest.mark.parametrize("time", [0.0, 3600.0])
 def test_the_card_samples_the_same_wind(soft_trees, soft_ladders, name, time):
@@ -72,8 +52,8 @@ def test_the_card_samples_the_same_wind(soft_trees, soft_ladders, name, time):
     simulation._sample_winds()
     card._write_wind()
     card._record(card._walk.sample_wind)
-    expected = sampled_by_cpu(simulation.kinds[0].sets[2])
-    actual = sampled(card, 2)
+    expected = winds_of_cpu(simulation.kinds[0].sets[2])
+    actual = winds_on_card(card, 2)
     assert expected.any() == (name != "fading" or time == 0.0) or name == "gusts"
     np.testing.assert_allclose(actual[..., :3], expected, atol=1e-4)
     folded = reconfiguration(soft_trees[0].material, np.linalg.norm(expected, axis=3))

@@ -110,7 +110,7 @@ def meadow_rows(beds: Sequence[Bed]) -> MeadowRows:
         state_sizes=tuple(state_sizes),
         parent=np.concatenate(parents).astype(np.int32),
         depth=np.repeat([one.depth for one in sets], counts).astype(np.uint8),
-        chance=np.concatenate([(row["bits"][:, 3] / 65536.0).astype(np.float32) for row in rows]),
+        chance=np.concatenate([((row["bits"][:, 3] & 0xFFFF) / 65536.0).astype(np.float32) for row in rows]),
         chunk=np.repeat(np.arange(len(edges) - 1), np.diff(edges)).astype(np.int32),
         chunk_first=edges,
         chunk_set=np.repeat(np.arange(len(sets)), chunk_counts).astype(np.int32),
@@ -237,8 +237,10 @@ def _blade_rows(one: _Set, number: int) -> NDArray[np.void]:
     turned = Rotation.from_matrix(blades.frame.transpose(0, 2, 1).astype(np.float64)).as_quat()
     rows["bits"][:, 0] = _pairs(turned[:, 0], turned[:, 1])
     rows["bits"][:, 1] = _pairs(turned[:, 2], turned[:, 3])
-    rows["bits"][:, 2] = _pairs(*octahedral(rest_frame(blades)[:, :, 2].astype(np.float64)).T)
-    rows["bits"][:, 3] = np.random.default_rng([number, 0xB1ADE]).integers(0, 65536, blades.count)
+    down = octahedral(rest_frame(blades)[:, :, 2].astype(np.float64))
+    rows["bits"][:, 2] = _pairs(*down.T)
+    chance = np.random.default_rng([number, 0xB1ADE]).integers(0, 65536, blades.count).astype(np.uint32)
+    rows["bits"][:, 3] = chance | (_rests(down) << np.uint32(16))
     return rows
 
 
@@ -255,6 +257,16 @@ def _pairs(low: Doubles, high: Doubles) -> NDArray[np.uint32]:
         np.rint(32767.0 * np.clip(part, -1.0, 1.0)).astype(np.int16).view(np.uint16) for part in (low, high)
     ]
     return parts[0].astype(np.uint32) | (parts[1].astype(np.uint32) << np.uint32(16))
+
+
+def _rests(values: Doubles) -> NDArray[np.uint32]:
+    """(B,) what ``_pairs`` loses of two numbers, 8 bits each: a blade that is pressed flat shows errors of its load.
+
+    A lean of nearly 1 stands for any large load, so that there a small error turns the tip by much.
+    """
+    lost = 32767.0 * values - np.rint(32767.0 * values)
+    low, high = (np.rint(254.0 * part).astype(np.int8).view(np.uint8) for part in lost.T)
+    return low.astype(np.uint32) | (high.astype(np.uint32) << np.uint32(8))
 
 
 def _chunks(one: _Set) -> tuple[Ints, Doubles]:

@@ -68,8 +68,8 @@ fn root_of(blade: BladeRow, carrier: u32) -> Root {
 }
 
 // z of the base frame's axis, normal and side at rest: where its weight pulls.
-fn rest_down(bits: u32) -> vec3f {
-    let folded = unpack2x16snorm(bits);
+fn rest_down(bits: vec4u) -> vec3f {
+    let folded = unpack2x16snorm(bits.z) + unpack4x8snorm(bits.w).zw * (0.5 / 32767.0);
     var down = vec3f(folded, 1.0 - abs(folded.x) - abs(folded.y));
     let under = max(-down.z, 0.0);
     down.x += select(under, -under, down.x >= 0.0);
@@ -201,7 +201,7 @@ fn pose(@builtin(global_invocation_id) id: vec3u) {
         moved = lean + meadow_pass.now.x * rate;
         broken = leans[at + 6u * WIDTH] > 0.5;
     }
-    let weight = -run.shape.y * select(1.0, run.shape.z, broken) * rest_down(blade.bits.z);
+    let weight = -run.shape.y * select(1.0, run.shape.z, broken) * rest_down(blade.bits);
     let lean = moved + weight / sqrt(1.0 + dot(weight, weight));
     var table = run.whole;
     if broken { table = run.broken; }

@@ -2,7 +2,8 @@
 
 struct BladeRow {
     place: vec4f,   // root on the ground, m, or (place along the parent 0..1, 0, 0); size
-    bits: vec4u,    // quaternion of the base frame, 4 x 16 bit; z of that frame's axes at rest, 2 x 16 bit; chance
+    bits: vec4u,    // quaternion of the base frame, 4 x 16 bit; z of that frame's axes at rest, 2 x 16 bit; chance, 16 bit, and
+                    // what the 2 x 16 bit before it lose, 2 x 8 bit
 }
 
 struct BladeRun {
