@@ -172,6 +172,23 @@ def test_each_set_feels_its_own_air_and_goes_on_from_a_state(device, planted):
         np.testing.assert_allclose(mine.lean, state.lean, atol=2e-6)
 
 
+def test_blades_that_the_card_cannot_bind_at_once_move_all_the_same(device, planted):
+    sets = planted["white_clover"]
+    tile = 4 * CONSTANT_COUNT * WIDTH
+    count = sum(len(blades.constants) for blades in sets)
+    whole = Leaning(device, sets)
+    shared = Leaning(device, sets, limit=tile * (count // 3 + lean_rows.BLOCK // WIDTH))
+    assert len(whole._shares) == 1
+    assert len(shared._shares) >= 3
+    assert max(share._own["constants"].size for share in shared._shares) <= tile * (count // 3 + 8)
+    for card in (whole, shared):
+        card.write_air(gusts(0.4))
+        card.step(40)
+    for one, other in zip(whole.states, shared.states, strict=True):
+        assert one.lanes.any()
+        np.testing.assert_array_equal(one.lanes, other.lanes)
+
+
 @pytest.mark.parametrize("bad", [np.nan, np.inf, 1e6])
 def test_forces_that_cannot_be_meant_are_mended_and_counted(device, fescue, bad):
     field = steady(bad, 0.0, 0.0)

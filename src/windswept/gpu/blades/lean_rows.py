@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from windswept.gpu.blades.layouts import AIR_GRID, AIR_LIMIT, LEAN_BLOCK, LEAN_KIND
 from windswept.motion.blades import BladeKind, Blades, PackedField
+from windswept.motion.blades.blades import CONSTANT_COUNT
 from windswept.motion.blades.step_blades import (
     BREAKING,
     HALF_EXPONENT,
@@ -68,6 +69,18 @@ def lean_rows(sets: Sequence[Blades], airs: Sequence[int]) -> LeanRows:
         np.concatenate([np.zeros(0, np.float32), *(blades.constants.ravel() for blades in sets)]),
         tiles,
     )
+
+
+def shares_of(rows: LeanRows, limit: int) -> Iterator[tuple[int, NDArray[np.void], Floats]]:
+    """Shares whose constants take no more than ``limit`` bytes: first tile, blocks, constants of their tiles."""
+    tile = CONSTANT_COUNT * WIDTH
+    spare = BLOCK // WIDTH
+    step = max(limit // (4 * tile) - spare, 1)
+    begin = rows.blocks["rows"][:, 0]
+    for first in range(0, sum(rows.tiles), step):
+        # A block that begins in a share may end in the next.
+        mine = rows.blocks[(begin >= first) & (begin < first + step)]
+        yield first, mine, rows.constants[first * tile : (first + step + spare) * tile]
 
 
 def _kind_row(kind: BladeKind) -> NDArray[np.void]:

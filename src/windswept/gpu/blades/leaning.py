@@ -7,10 +7,11 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from windswept.gpu.blades.layouts import AIR_GRID, AIR_LIMIT, LEAN_PASS
-from windswept.gpu.blades.lean_rows import LeanRows, air_grids, lean_rows
-from windswept.gpu.buffers import UNIFORM, GrowingBuffer, check_size, filled, room
+from windswept.gpu.blades.lean_rows import LeanRows, air_grids, lean_rows, shares_of
+from windswept.gpu.buffers import UNIFORM, GrowingBuffer, filled, room
 from windswept.gpu.failures import card_errors
 from windswept.gpu.kernel import Kernel
 from windswept.gpu.layouts import ROW, WORD
@@ -18,10 +19,48 @@ from windswept.gpu.stage_times import StageTimes
 from windswept.motion.blades import Blades, BladeState, PackedField
 from windswept.motion.blades.blades import STATE_COUNT
 from windswept.motion.lanes import WIDTH
+from windswept.plants.plant import Floats
 
 MOST_GROUPS = 65_535
 """Workgroups along x that every adapter takes; each takes more blocks where there are more."""
 _NUMBER = np.dtype("<f4")
+
+
+class _Share:
+    """Blades whose constants the card binds at once."""
+
+    def __init__(
+        self,
+        device: Any,
+        shared: dict[str, Any],
+        first: int,
+        blocks: NDArray[np.void],
+        constants: Floats,
+    ) -> None:
+        self._device, self._first = device, first
+        self._groups = min(len(blocks), MOST_GROUPS)
+        self._own = {
+            "blocks": filled(device, blocks),
+            "constants": filled(device, constants),
+            "lean_pass": room(device, LEAN_PASS, 1, UNIFORM),
+        }
+        self._kernel = Kernel(device, "lean", "step_blades", shared | self._own)
+
+    @property
+    def bytes(self) -> int:
+        """Memory of what is its own."""
+        return sum(buffer.size for buffer in self._own.values())
+
+    def bind(self, shared: dict[str, Any]) -> None:
+        """Takes other buffers of what all share."""
+        self._kernel.bind(shared | self._own)
+
+    def record(self, compute_pass: Any, count: int) -> None:
+        """Records ``count`` steps."""
+        due = np.zeros(1, LEAN_PASS)
+        due["steps"] = count, self._first, 0, 0
+        self._device.queue.write_buffer(self._own["lean_pass"], 0, due)
+        self._kernel.record(compute_pass, self._groups)
 
 
 class Leaning:
@@ -31,21 +70,29 @@ class Leaning:
         device: the card.
         sets: what stands where; sets that no wind moves are better left out.
         airs: (S,) number of the field that each set feels; None where there is one for all.
+        limit: bytes that a buffer may have; None for what the adapter takes.
 
     Raises:
         GraphicsError: the card has too little memory.
     """
 
-    def __init__(self, device: Any, sets: Sequence[Blades], airs: Sequence[int] | None = None) -> None:
+    def __init__(
+        self,
+        device: Any,
+        sets: Sequence[Blades],
+        airs: Sequence[int] | None = None,
+        limit: int | None = None,
+    ) -> None:
         self._device = device
         self._sets = tuple(sets)
         rows = lean_rows(sets, [0] * len(sets) if airs is None else airs)
-        check_size(device, rows.constants.nbytes)
-        self._groups = min(len(rows.blocks), MOST_GROUPS)
         self._nodes = GrowingBuffer(device, ROW)
         with card_errors("the blades' motion"):
             self._resources = self._buffers(rows)
-            self._kernel = Kernel(device, "lean", "step_blades", self._resources)
+            self._shares = [
+                _Share(device, self._resources, *share)
+                for share in shares_of(rows, limit or device.limits["max-storage-buffer-binding-size"])
+            ]
         self._edges = np.cumsum([0, *rows.tiles]) * STATE_COUNT * WIDTH
         self.times = StageTimes(device, ("lean",))
         self.step_count = 0
@@ -55,14 +102,11 @@ class Leaning:
         """Everything that a step reads and writes, by the names that the shader gives it."""
         device = self._device
         return {
-            "blocks": filled(device, rows.blocks),
             "kinds": filled(device, rows.kinds),
-            "constants": filled(device, rows.constants),
             "nodes": self._nodes.buffer,
             "leans": room(device, _NUMBER, sum(rows.tiles) * STATE_COUNT * WIDTH),
             "clamped": room(device, WORD, 1),
             "grids": room(device, AIR_GRID, AIR_LIMIT, UNIFORM),
-            "lean_pass": room(device, LEAN_PASS, 1, UNIFORM),
         }
 
     @property
@@ -73,7 +117,9 @@ class Leaning:
     @property
     def bytes(self) -> int:
         """Memory of all buffers."""
-        return sum(buffer.size for buffer in self._resources.values())
+        return sum(buffer.size for buffer in self._resources.values()) + sum(
+            share.bytes for share in self._shares
+        )
 
     def write_air(self, *fields: PackedField) -> None:
         """Takes the air that blades feel from now on, in the order of ``airs``.
@@ -90,7 +136,8 @@ class Leaning:
         self._nodes.reserve(sum(field.nodes.size for field in fields) // 4)
         if self._nodes.buffer is not self._resources["nodes"]:
             self._resources["nodes"] = self._nodes.buffer
-            self._kernel.bind(self._resources)
+            for share in self._shares:
+                share.bind(self._resources)
         first = 0
         for field in fields:
             self._nodes.write(field.nodes, first)
@@ -104,12 +151,10 @@ class Leaning:
             GraphicsError: the card was lost.
         """
         with card_errors("stepping blades"):
-            due = np.zeros(1, LEAN_PASS)
-            due["steps"] = count, 0, 0, 0
-            self._device.queue.write_buffer(self._resources["lean_pass"], 0, due)
             encoder = self._device.create_command_encoder()
             compute_pass = encoder.begin_compute_pass(**self.times.around("lean"))
-            self._kernel.record(compute_pass, self._groups)
+            for share in self._shares:
+                share.record(compute_pass, count)
             compute_pass.end()
             self._device.queue.submit([encoder.finish()])
         self.step_count += count

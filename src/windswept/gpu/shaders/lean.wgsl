@@ -15,7 +15,7 @@ const MOST_BITS = 0x7149f2cau;   // of 1e30; those of infinity and of what is no
 
 @group(0) @binding(0) var<storage, read> blocks: array<LeanBlock>;
 @group(0) @binding(1) var<storage, read> kinds: array<LeanKind>;
-@group(0) @binding(2) var<storage, read> constants: array<f32>;
+@group(0) @binding(2) var<storage, read> constants: array<f32>;   // as many tiles as the card binds at once
 @group(0) @binding(3) var<storage, read> nodes: array<vec4f>;   // of every node velocity, m/s, then pressure, N/m^2
 @group(0) @binding(4) var<storage, read_write> leans: array<f32>;
 @group(0) @binding(5) var<storage, read_write> clamped: array<atomic<u32>, 1>;
@@ -189,7 +189,7 @@ fn step_blades(
         let block = blocks[b].rows;
         if lane >= block.y { continue; }
         let tile = block.x + lane / WIDTH;
-        let constants_at = tile * CONSTANT_ROWS * WIDTH + lane % WIDTH;
+        let constants_at = (tile - lean_pass.steps.y) * CONSTANT_ROWS * WIDTH + lane % WIDTH;
         let leans_at = tile * STATE_ROWS * WIDTH + lane % WIDTH;
         let kind = kinds[block.z];
         let blade = blade_at(constants_at);

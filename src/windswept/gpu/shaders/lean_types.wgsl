@@ -11,5 +11,5 @@ struct LeanKind {
 }
 
 struct LeanPass {
-    steps: vec4u,     // inner steps that are due; 0; 0; 0
+    steps: vec4u,     // inner steps that are due; tile at which `constants` begins; 0; 0
 }
