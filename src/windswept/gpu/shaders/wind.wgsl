@@ -63,25 +63,27 @@ fn turned(v: vec2f, cosine_yaw: f32, sine_yaw: f32) -> vec2f {
     return vec2f(cosine_yaw * v.x - sine_yaw * v.y, sine_yaw * v.x + cosine_yaw * v.y);
 }
 
-// A workgroup takes a block, a probe and an end: velocity in the plant's frame, and how far leaves fold.
+// A workgroup takes a block, some of its probes and an end: velocity in the plant's frame, and how far leaves fold.
 @compute @workgroup_size(64)
 fn sample(
     @builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) spread: vec3u, @builtin(local_invocation_index) lane: u32
 ) {
     for (var b = group.x; b < blocks[0].x; b += spread.x) {
         let block = blocks[1u + b];
+        if lane >= block.z { continue; }
         let rung = rungs[block.x];
-        if group.y >= rung.probes.y || lane >= block.z { continue; }
         let here = rooted[members[rung.probes.w + block.y * LANES + lane]];
-        let probe = probes[rung.probes.x + group.y].xyz;
         let yaw = vec2f(here.position.w, here.heading.x);
-        let point = here.position.xyz + vec3f(turned(probe.xy, yaw.x, yaw.y), probe.z);
-        let height = max(point.z - ground_height(ends[group.z], point.xy), 0.0);
-        let added = field_at(field_grids[group.z], vec3f(point.xy, height));
-        let air = vec3f(velocity(ends[group.z], point.xy, height), 0.0) + added;
-        let ratio = length(air) / rung.air.x;
-        let row = 2u * (block.y * rung.probes.y + group.y) + group.z;
-        let here_now = vec4f(turned(air.xy, yaw.x, -yaw.y), air.z, pow(1.0 + ratio * ratio, rung.air.y));
-        wind[rung.room.z + row * stride_of(rung) + lane] = here_now;
+        for (var p = group.y; p < rung.probes.y; p += spread.y) {
+            let probe = probes[rung.probes.x + p].xyz;
+            let point = here.position.xyz + vec3f(turned(probe.xy, yaw.x, yaw.y), probe.z);
+            let height = max(point.z - ground_height(ends[group.z], point.xy), 0.0);
+            let added = field_at(field_grids[group.z], vec3f(point.xy, height));
+            let air = vec3f(velocity(ends[group.z], point.xy, height), 0.0) + added;
+            let ratio = length(air) / rung.air.x;
+            let row = 2u * (block.y * rung.probes.y + p) + group.z;
+            let here_now = vec4f(turned(air.xy, yaw.x, -yaw.y), air.z, pow(1.0 + ratio * ratio, rung.air.y));
+            wind[rung.room.z + row * stride_of(rung) + lane] = here_now;
+        }
     }
 }

@@ -17,6 +17,8 @@ from windswept.plants.plant import Floats
 
 STEP, WIND, SHIFT, JOIN, JOIN_GROUPS = 0, 3, 6, 9, 12
 """Rows of ``dispatches``, as in ``plan.wgsl``."""
+PROBE_CREWS = 8
+"""Workgroups that share the probes of a block: most plants of a forest are at levels that have one or two."""
 INDIRECT = STORAGE | wgpu.BufferUsage.INDIRECT
 
 
@@ -72,7 +74,7 @@ class CardState:
         rungs = self.arrays.rungs
         rows = np.ones((5, 3), np.uint32)
         rows[:, 0] = 0
-        rows[WIND // 3, 1:] = rungs["probes"][:, 1].max(initial=0), 2
+        rows[WIND // 3, 1:] = min(rungs["probes"][:, 1].max(initial=0), PROBE_CREWS), 2
         rows[JOIN_GROUPS // 3, 1] = rungs["groups"][:, 1].max(initial=1)
         return rows.ravel()
 

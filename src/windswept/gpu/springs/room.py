@@ -14,6 +14,8 @@ from windswept.motion import Level
 Counts = NDArray[np.int64]
 RECORD = 5
 """Rows of a link in the stack: RECORD of ``springs.wgsl``."""
+ROOM_BYTES = 1 << 30
+"""Of a buffer at most, whatever the card could bind, if the coarsest levels need no more."""
 NARROWEST = 8
 """Blocks of few placements are as wide as these, rounded up to so many: whole lines of a card's cache."""
 
@@ -75,16 +77,18 @@ def room_for(size: BlockSize, placements: Counts, coarsest: NDArray[np.bool_], l
         most = np.floor(share / row_bytes.max(axis=1)).astype(np.int64)
         return np.where(coarsest, everyone, np.minimum(everyone, most))
 
-    def fits(share: float) -> bool:
-        return bool(((blocks(share)[:, None] * row_bytes).sum(axis=0) <= limit).all())
-
     low, high = 0.0, float((everyone[:, None] * row_bytes).max(initial=0))
-    if not fits(low):
-        needed = int((blocks(low)[:, None] * row_bytes).sum(axis=0).max())
+    needed = int((blocks(low)[:, None] * row_bytes).sum(axis=0).max())
+    if needed > limit:
         raise GraphicsError(
             f"the simulation needs {needed / 1e6:.2f} MB in one buffer and this adapter takes {limit / 1e6:.2f} MB: "
             "place fewer plants, or simulate on the CPU"
         )
+    budget = min(limit, max(ROOM_BYTES, needed))
+
+    def fits(share: float) -> bool:
+        return bool(((blocks(share)[:, None] * row_bytes).sum(axis=0) <= budget).all())
+
     if fits(high):
         return blocks(high) * width
     for _ in range(60):
