@@ -23,6 +23,7 @@ NAMES = (
     "gpu_springs",
     "gpu_blades",
     "gpu_multibody",
+    "forest_gpu",
 )
 
 
@@ -33,7 +34,7 @@ def command(names: tuple[str, ...], as_json: bool) -> None:
     """Measure speed on this machine, of some parts or of all.
 
     Parts: springs, multibody, levels, accuracy, forest, bend, blades, field, growth, spread, draw, gpu_springs,
-    gpu_blades and gpu_multibody.
+    gpu_blades, gpu_multibody and forest_gpu.
 
     Example: windswept bench springs --json
     """

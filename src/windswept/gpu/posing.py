@@ -56,6 +56,12 @@ class Posing:
         links, shifts, pieces, leaves = (store.rows for store in self._stores)
         return links, shifts, pieces, leaves
 
+    @property
+    def bytes(self) -> int:
+        """Memory of all buffers."""
+        own = [self._pieces, self._leaves, self.stems, self.looks, *(store.buffer for store in self._stores)]
+        return sum(buffer.size for buffer in own)
+
     def reserve(self, wanted: Counts) -> None:
         """Makes room for what a frame poses.
 

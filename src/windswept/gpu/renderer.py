@@ -150,7 +150,7 @@ class Renderer:
     def draw(self, frame: Frame) -> NDArray[np.uint8]:
         """(height, width, 4) sRGB picture with alpha 255."""
         self.draw_into(self._picture.create_view(), frame)
-        if frame.motion is not None and self._has_grown(self._tally.now(self.culling.shortened)):
+        if frame.motion is not None and self._has_grown(self.told_now):
             return self.draw(frame)
         width, height = self.size
         data = self._device.queue.read_texture(
@@ -159,6 +159,10 @@ class Renderer:
             (width, height, 1),
         )
         return np.frombuffer(data, np.uint8).reshape(height, width, 4)
+
+    def draw_aside(self, frame: Frame) -> Told:
+        """Draw a frame as ``draw_into`` does, into a picture that nobody reads."""
+        return self.draw_into(self._picture.create_view(), frame)
 
     def draw_into(self, view: Any, frame: Frame) -> Told:
         """Draw a frame into a texture view of this renderer's size and format.
@@ -223,6 +227,16 @@ class Renderer:
     def stage_milliseconds(self) -> dict[str, float]:
         """How long each stage of the last frame took on the card; waits for it, and is empty where it has no clock."""
         return self._times.read()
+
+    @property
+    def told_now(self) -> Told:
+        """What became of the last frame whose motion was on the card; waits for it."""
+        return self._tally.now(self.culling.shortened)
+
+    @property
+    def plant_bytes(self) -> int:
+        """Memory of plants at rest, of what is chosen and of what is posed."""
+        return self.posing.bytes + self.culling.bytes
 
     def drawn_counts(self, frame: Frame) -> tuple[int, int]:
         """Stem pieces and leaves that a frame's detail comes to, shadows' own included."""

@@ -48,14 +48,14 @@ def bench_forest(say: Callable[[str], None] = lambda line: None) -> dict[str, fl
     }
 
 
-def forest() -> Scene:
-    """A thousand trees of four kinds round a camera that walks among them."""
+def forest(placements: int = PLACEMENTS) -> Scene:
+    """Trees of four kinds round a camera that walks among them."""
     rng = np.random.default_rng(0)
-    side = SPACING * np.sqrt(PLACEMENTS)
-    kind = rng.integers(0, len(KINDS), PLACEMENTS)
-    position = np.zeros((PLACEMENTS, 3), np.float32)
-    position[:, :2] = rng.uniform(-0.5 * side, 0.5 * side, (PLACEMENTS, 2))
-    yaw = rng.uniform(0.0, 2.0 * np.pi, PLACEMENTS).astype(np.float32)
+    side = SPACING * np.sqrt(placements)
+    kind = rng.integers(0, len(KINDS), placements)
+    position = np.zeros((placements, 3), np.float32)
+    position[:, :2] = rng.uniform(-0.5 * side, 0.5 * side, (placements, 2))
+    yaw = rng.uniform(0.0, 2.0 * np.pi, placements).astype(np.float32)
     return replace(
         load_scene("hazel"),
         kinds=tuple(PlantKind(*one) for one in KINDS),

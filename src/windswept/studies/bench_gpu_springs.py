@@ -112,7 +112,7 @@ def _forest() -> dict[str, float]:
     card = GpuSimulation(scene, grown_kinds(scene, levels=True), picture_height=1080)
     card.advance(1.0)
     name = f"gpu.forest.{PLACEMENTS}"
-    stages = _median_stages(lambda: card.advance(WIND_INTERVAL * TIME_STEP).stage_milliseconds)
+    stages = median_stages(lambda: card.advance(WIND_INTERVAL * TIME_STEP).stage_milliseconds)
     return {
         f"{name}.oscillators_active": card.stepped_count,
         f"{name}.bytes": card.card.bytes,
@@ -133,11 +133,11 @@ def _frame() -> dict[str, float]:
         return card.stage_milliseconds | renderer.stage_milliseconds
 
     wall = median_seconds(one, REPEATS)
-    stages = _median_stages(one)
+    stages = median_stages(one)
     return {"gpu.frame.ms": 1e3 * wall, **{f"gpu.frame.{stage}.ms": value for stage, value in stages.items()}}
 
 
-def _median_stages(run: Callable[[], dict[str, float]]) -> dict[str, float]:
+def median_stages(run: Callable[[], dict[str, float]], repeats: int = REPEATS) -> dict[str, float]:
     """Median of what each stage took, ms."""
-    runs = [run() for _ in range(REPEATS)]
+    runs = [run() for _ in range(repeats)]
     return {stage: float(np.median([one[stage] for one in runs if stage in one])) for stage in runs[0]}
