@@ -42,7 +42,7 @@ class _Share:
         self._own = {
             "blocks": filled(device, blocks),
             "constants": filled(device, constants),
-            "lean_pass": room(device, LEAN_PASS, 1, UNIFORM),
+            "lean_pass": room(device, LEAN_PASS, 1),
         }
         self._kernel = Kernel(device, "lean", "step_blades", shared | self._own)
 

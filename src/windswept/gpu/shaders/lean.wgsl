@@ -20,7 +20,8 @@ const MOST_BITS = 0x7149f2cau;   // of 1e30; those of infinity and of what is no
 @group(0) @binding(4) var<storage, read_write> leans: array<f32>;
 @group(0) @binding(5) var<storage, read_write> clamped: array<atomic<u32>, 1>;
 @group(0) @binding(6) var<uniform> grids: array<AirGrid, 2>;
-@group(0) @binding(7) var<uniform> lean_pass: LeanPass;
+// No uniform: Mesa's software driver would compile the kernel anew, and keep it, for every dispatch of few steps.
+@group(0) @binding(7) var<storage, read> lean_pass: LeanPass;
 
 struct Air {
     wind: vec3f,
