@@ -35,8 +35,6 @@ class CoupledSimulation(GpuSimulation):
         GraphicsError: no adapter, or one with too little memory.
     """
 
-    turns_per_link = 1
-
     def __init__(
         self, scene: Scene, kinds: list[GrownKind], room: int | None = None, beds: tuple[Bed, ...] = ()
     ) -> None:

@@ -26,7 +26,7 @@ struct Link {
     leaf_1: vec4f,      // drag tensor of the leaves, xx yy zz, kg/m; mobility
     leaf_2: vec4f,      // xy xz yz; drag of the wood, kg/m
     swing: vec4f,       // exact step: angle from angle and from rate, rate from angle and from rate
-    more: vec4f,        // propagation; tension per force, 1/N; half an inner step, s; 0
+    more: vec4f,        // propagation; tension per force, 1/N; half an inner step, s; links before it on its way from the root
     rows: vec4u,        // parent or NONE; probe; end of its groups; links whose last descendant this is, itself included
 }
 

@@ -91,19 +91,31 @@ fn pose_placement(rung: Rung, motion: Motion, seat: Seat, is_noted: bool) {
     }
 }
 
-// One invocation takes a placement that has a seat.
+fn seat_of(seated: vec4u) -> Seat {
+    return Seat(seated.y, seated.z);
+}
+
+// One invocation takes a placement that has a seat. If it is between two levels, the angles of both are noted first.
+@compute @workgroup_size(64)
+fn note_origin(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= seats[0].x { return; }
+    let seated = seats[1u + id.x];
+    let motion = motions[seated.x];
+    if motion.origin.x != NONE { note_angles(rungs[motion.origin.x], motion.origin.y, seat_of(seated), 1.0); }
+}
+
+@compute @workgroup_size(64)
+fn note_goal(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= seats[0].x { return; }
+    let seated = seats[1u + id.x];
+    let motion = motions[seated.x];
+    if motion.origin.x != NONE { note_angles(rungs[motion.at.x], motion.at.y, seat_of(seated), share_of(motion)); }
+}
+
 @compute @workgroup_size(64)
 fn pose_seated(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= seats[0].x { return; }
     let seated = seats[1u + id.x];
-    let seat = Seat(seated.y, seated.z);
     let motion = motions[seated.x];
-    // A placement between two levels is posed by the one that it goes to.
-    let rung = rungs[motion.at.x];
-    let is_blending = motion.origin.x != NONE;
-    if is_blending {
-        note_angles(rungs[motion.origin.x], motion.origin.y, seat, 1.0);
-        note_angles(rung, motion.at.y, seat, share_of(motion));
-    }
-    pose_placement(rung, motion, seat, is_blending);
+    pose_placement(rungs[motion.at.x], motion, seat_of(seated), motion.origin.x != NONE);
 }

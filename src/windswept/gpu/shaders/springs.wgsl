@@ -14,6 +14,10 @@
 @group(0) @binding(6) var<storage, read_write> stack: array<vec4f>;
 @group(0) @binding(7) var<uniform> moment: Moment;
 
+// Links that this dispatch walks; where there are more, it goes on where the one before it left off.
+override FIRST: u32 = 0u;
+override MOST: u32 = 0xffffffffu;
+
 const REST_THRESHOLD = 1e-9;
 const GROUP_REST_THRESHOLD = 1e-7;
 const TINY = 1e-30;
@@ -141,18 +145,25 @@ fn swing_joint(link: Link, row: u32, body: Body, parent: Body) {
     state[row] = vec4f(first, second);
 }
 
-// One inner step of one placement: the walk over its links.
+// One inner step of one placement: the walk over its links, or over a share of them.
 fn walk(rung: Rung, column: Column, late: f32) {
     let stride = column.stride;
     var body: Body;
-    body.rotation = vec4f(0.0, 0.0, 0.0, 1.0);
     var group = 0u;
-    for (; group < rung.groups.z; group++) {
-        let row = groups[rung.groups.x + group];
-        body = swing_group(row, column.groups + 2u * group * stride, stride, air_at(column, row.rows.x, late), body);
-    }
     var top = column.stack;
-    for (var i = 0u; i < rung.links.y; i++) {
+    if FIRST == 0u {
+        body.rotation = vec4f(0.0, 0.0, 0.0, 1.0);
+        for (; group < rung.groups.z; group++) {
+            let row = groups[rung.groups.x + group];
+            body = swing_group(row, column.groups + 2u * group * stride, stride, air_at(column, row.rows.x, late), body);
+        }
+    } else {
+        top += u32(links[rung.links.x + FIRST].more.w) * RECORD * stride;
+        body = take_up(top, stride);
+        group = links[rung.links.x + FIRST - 1u].rows.z;
+    }
+    let end = FIRST + min(MOST, rung.links.y - FIRST);
+    for (var i = FIRST; i < end; i++) {
         let link = links[rung.links.x + i];
         lay_down(top, stride, body);
         top += RECORD * stride;
@@ -173,6 +184,7 @@ fn walk(rung: Rung, column: Column, late: f32) {
             done = ended.rows.x;
         }
     }
+    if end < rung.links.y { lay_down(top, stride, body); }
 }
 
 @compute @workgroup_size(64)
@@ -183,6 +195,7 @@ fn step_block(
         let block = blocks[1u + b];
         if lane >= block.z { continue; }
         let rung = rungs[block.x];
+        if FIRST > 0u && FIRST >= rung.links.y { continue; }
         let stride = stride_of(rung);
         let joints = rung.room.x + block.y * (rung.links.y + 2u * rung.groups.y) * stride + lane;
         let column = Column(

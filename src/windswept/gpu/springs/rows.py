@@ -56,7 +56,7 @@ def link_rows(level: Level) -> Rows:
     rows["leaf_1"] = _with(c[:, DRAG_LEAF : DRAG_LEAF + 3], c[:, MOBILITY])
     rows["leaf_2"] = _with(c[:, DRAG_LEAF + 3 : DRAG_LEAF + 6], c[:, DRAG_WOOD])
     rows["swing"] = c[:, STEP_XX : STEP_XX + 4]
-    rows["more"] = np.stack([c[:, PROPAGATION], c[:, TENSION], c[:, HALF_STEP], 0.0 * c[:, TENSION]], axis=1)
+    rows["more"] = np.stack([c[:, PROPAGATION], c[:, TENSION], c[:, HALF_STEP], level.depth], axis=1)
     ends = links_that_end(level.depth)
     rows["rows"] = np.stack([_or_none(parent), level.probe, level.group_start[2:], ends], axis=1)
     return rows

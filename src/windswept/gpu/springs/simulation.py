@@ -23,8 +23,8 @@ from windswept.gpu.springs.kinds import GrownKind
 from windswept.gpu.springs.pose_seats import seats_for_all
 from windswept.gpu.springs.rung_arrays import rung_arrays
 from windswept.gpu.springs.seats import first_seats
-from windswept.gpu.springs.turns import steps_in_turns
-from windswept.gpu.springs.walk import Walk
+from windswept.gpu.springs.turns import check_walked_whole, steps_in_turns
+from windswept.gpu.springs.walk import TURNS_PER_LINK, WHOLE_TURNS, Walk
 from windswept.levels import Eye, outside_view
 from windswept.motion import TIME_STEP
 from windswept.plants.plant import Floats, Ints
@@ -56,9 +56,6 @@ class GpuSimulation:
         GraphicsError: no adapter, or one with too little memory.
     """
 
-    turns_per_link = 4
-    """Turns of a shader's loops for every link and step, see ``turns.py``: its own, its groups', its ends' twice."""
-
     def __init__(
         self,
         scene: Scene,
@@ -83,7 +80,8 @@ class GpuSimulation:
         self._device = shared_device()
         limit = self._device.limits["max-storage-buffer-binding-size"]
         self._arrays = rung_arrays(kinds, limit if room is None else min(room, limit))
-        self.steps_at_once = steps_in_turns(self._device, self._arrays.rungs, self.turns_per_link)
+        check_walked_whole(self._device, self._arrays.rungs, WHOLE_TURNS)
+        self.steps_at_once = steps_in_turns(self._device, self._arrays.rungs, TURNS_PER_LINK)
         """Inner steps that one submission takes, at most."""
         seats = first_seats(kinds, self._arrays, self._eye_now())
         self.field = None if scene.field is None else start_field(scene.field, scene.wind)

@@ -7,11 +7,16 @@ from typing import Any
 from windswept.gpu.kernel import Kernel
 from windswept.gpu.seating import Seating
 from windswept.gpu.springs.card_state import JOIN, JOIN_GROUPS, SHIFT, STEP, WIND, CardState
+from windswept.gpu.springs.turns import links_in_turns
 from windswept.gpu.stage_times import StageTimes
 from windswept.motion.lanes import WIDTH
 
 STAGES = ("levels", "wind", "simulate", "pose")
 WORKGROUP = 64
+TURNS_PER_LINK = 4
+"""Turns of the loops of ``springs.wgsl`` for a link and step, see turns.py: its own, its groups', its ends' twice."""
+WHOLE_TURNS = 1
+"""The same of the kernels that are dispatched for whole plants only: of poses, of changes of level."""
 
 
 class Walk:
@@ -23,9 +28,6 @@ class Walk:
         rungs: levels of all kinds.
         placements: of all kinds.
     """
-
-    steppers: tuple[tuple[str, str], ...] = (("springs", "step_block"),)
-    """Shader sets and entry points that step a block, one after the other."""
 
     def __init__(self, device: Any, card: CardState, rungs: int, placements: int) -> None:
         self._device, self._card, self._rungs = device, card, rungs
@@ -49,8 +51,17 @@ class Walk:
         self._fit_groups = kernel("fit_groups", "fit_groups", noted)
         self._sample = kernel("wind", "sample")
         self._crown = kernel("crown", "crown_speed")
-        self._steppers = [kernel(*stepper) for stepper in self.steppers]
-        self._pose: Kernel | None = None
+        self._steppers = self._new_steppers()
+        self._posers: list[Kernel] = []
+
+    def _new_steppers(self) -> list[Kernel]:
+        """Kernels that step a block, one after the other: of large plants, each walks a share of the links."""
+        rungs, resources = self._card.arrays.rungs, self._card.resources
+        share = links_in_turns(self._device, rungs, TURNS_PER_LINK)
+        return [
+            Kernel(self._device, "springs", "step_block", resources, {"FIRST": first, "MOST": share})
+            for first in range(0, int(rungs["links"][:, 1].max(initial=1)), share)
+        ]
 
     def rebind_wind(self) -> None:
         """Takes the buffers of a wind with more sources."""
@@ -98,9 +109,11 @@ class Walk:
         """Writes where the links of the placements that have seats are now."""
         seats = {"seats": seating.seats, "ranks": seating.ranks, "poses": seating.poses}
         resources = self._card.resources | seats
-        if self._pose is None:
-            self._pose = Kernel(self._device, "pose_links", "pose_seated", resources)
-        self._pose.bind(resources)
+        if not self._posers:
+            entries = ("note_origin", "note_goal", "pose_seated")
+            self._posers = [Kernel(self._device, "pose_links", entry, resources) for entry in entries]
         compute_pass = encoder.begin_compute_pass(**self.times.around("pose"))
-        self._pose.record_planned(compute_pass, seating.dispatches, 0)
+        for kernel in self._posers:
+            kernel.bind(resources)
+            kernel.record_planned(compute_pass, seating.dispatches, 0)
         compute_pass.end()
