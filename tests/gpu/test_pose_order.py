@@ -9,6 +9,7 @@ from handmade import random_tree
 from windswept.geometry.curves import build_geometry
 from windswept.geometry.detail import DetailRules, choose_detail, detail_order
 from windswept.gpu.pose_order import pose_order
+from windswept.plants.weber_penn import grow
 
 RULES = DetailRules(stem_pixels=(24.0, 7.0, 2.0, 0.3), leaf_pixels=3.0, leaf_scale_limit=5.0)
 OTHERS = DetailRules(stem_pixels=(50.0, 20.0, 9.0, 2.0), leaf_pixels=1.0, leaf_scale_limit=2.0)
@@ -84,6 +85,19 @@ def test_parents_come_first_and_ranks_are_an_order(drawn):
         np.testing.assert_array_equal(order[rank], np.arange(len(order)))
         has_parent = parent >= 0
         assert (rank[parent[has_parent]] < rank[has_parent]).all()
+
+
+@pytest.mark.parametrize(("limit", "leaves", "links"), [(5.0, 1123, 1893), (25.0, 45, 240)])
+def test_a_far_crown_poses_what_carries_its_last_leaves(limit, leaves, links):
+    """An aspen a kilometre away, a metre as large as half a pixel."""
+    plant = grow("quaking_aspen")
+    geometry, rules = build_geometry(plant), DetailRules(leaf_scale_limit=limit)
+    order = detail_order(geometry)
+    pose = pose_order(geometry, plant.link_parent, order, rules)
+    detail = choose_detail(order, np.array([0.6]), rules)
+    assert detail.piece_limit[0, -1] == 0
+    assert detail.leaf_count[0] == pytest.approx(leaves, rel=0.05)
+    assert pose.reach(detail.piece_limit[:, -1], detail.leaf_count)[0, 0] == pytest.approx(links, rel=0.05)
 
 
 def test_hardly_more_is_posed_than_is_needed(drawn):
