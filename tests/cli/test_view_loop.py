@@ -10,16 +10,22 @@ import pytest
 from windswept.cli.view import view_scene
 from windswept.gpu.frame import Camera
 from windswept.render import window
-from windswept.scene.load_scene import load_scene
+from windswept.scene.load_scene import build_scene, load_scene
+from windswept.scene.scene import Scene
+
+
+def opened(scene: Scene, gpu: bool, monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """What the window is asked for."""
+    asked: list[Any] = []
+    monkeypatch.setattr(window, "require_display", lambda: None)
+    monkeypatch.setattr(window, "show_window", lambda *arguments: asked.extend(arguments))
+    view_scene(scene, gpu=gpu)
+    return asked
 
 
 @pytest.mark.parametrize("gpu", [False, True])
 def test_a_frame_follows_the_sliders_and_the_camera(gpu: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[Any] = []
-    monkeypatch.setattr(window, "require_display", lambda: None)
-    monkeypatch.setattr(window, "show_window", lambda *arguments: asked.extend(arguments))
-    view_scene(load_scene("hazel", 1), gpu=gpu)
-    advance = asked[2]
+    advance = opened(load_scene("hazel", 1), gpu, monkeypatch)[2]
     controls = window.Controls(wind_speed=9.0, wind_heading=1.0)
     camera = Camera((1.0, -9.0, 2.0), (0.0, 0.0, 1.5))
     frame = advance(0.1, controls, camera)
@@ -29,3 +35,15 @@ def test_a_frame_follows_the_sliders_and_the_camera(gpu: bool, monkeypatch: pyte
     assert "links stepped" in controls.counters
     assert (frame.motion is not None) == gpu
     assert (frame.plants[0].link is None) == gpu
+
+
+@pytest.mark.parametrize("gpu", [False, True])
+def test_underbrush_is_in_the_window(gpu: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    plant = {"source": "common_poppy", "position": [0.0, 0.0]}
+    camera = {"eye": [0.0, -1.5, 0.6], "target": [0.0, 0.0, 0.3]}
+    asked = opened(build_scene("tuft.toml", {"plant": [plant], "camera": camera}), gpu, monkeypatch)
+    advance, beds = asked[2], asked[-1]
+    frame = advance(0.1, window.Controls(), Camera((1.0, -2.0, 1.0), (0.0, 0.0, 0.2)))
+    assert [bed.source for bed in beds] == ["common_poppy"]
+    assert (frame.meadow.leans is not None) == gpu
+    assert (len(frame.meadow.lanes) == 0) == gpu
