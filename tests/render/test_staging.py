@@ -94,7 +94,7 @@ def test_stages_are_timed_by_the_cards_own_clock(stands, device_has_clock):
     renderer = stage(card, SIZE)
     renderer.draw(frame_now(card.advance(0.1)))
     if device_has_clock:
-        assert set(renderer.stage_milliseconds) == {"cull", "curves", "shadows", "picture"}
+        assert set(renderer.stage_milliseconds) == {"lawn", "cull", "curves", "shadows", "picture"}
         assert {"wind", "simulate", "pose"} <= set(card.stage_milliseconds)
     else:
         assert renderer.stage_milliseconds == card.stage_milliseconds == {}

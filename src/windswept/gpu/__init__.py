@@ -10,7 +10,7 @@ What stays is uploaded once, what moves is uploaded every frame, and one plan ti
           --PlantDrawing--> shadow map, then picture       (plant_drawing.py, shaders/bark.wgsl, leaves.wgsl)
           --MeadowDrawing--> blades of underbrush          (meadow/, shaders/blades_pose.wgsl, blades.wgsl)
           --Balls--> balls of the force field              (balls.py, shaders/balls.wgsl)
-          --Backdrop--> ground, sky, and a made-up lawn    (backdrop.py, shaders/grass.wgsl, ground.wgsl, sky.wgsl)
+          --Backdrop--> ground, sky, and a made-up lawn    (backdrop.py, lawn.py, shaders/grass.wgsl, ...)
                         where a scene has no underbrush
 
 Where the simulation runs on the card too (springs/), a frame is wind, steps, cull, pose, curves, picture without

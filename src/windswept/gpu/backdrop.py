@@ -8,11 +8,10 @@ import numpy as np
 import wgpu
 from numpy.typing import NDArray
 
-from windswept.gpu import layouts
-from windswept.gpu.buffers import UNIFORM, GrowingBuffer, filled
+from windswept.gpu.buffers import filled
 from windswept.gpu.frame import Ground
-from windswept.gpu.grass_field import grass_field
 from windswept.gpu.ground_mesh import ground_mesh
+from windswept.gpu.lawn import Lawn
 from windswept.gpu.wiring import DRAWING, READ, bind, buffers_layout, colour_pipeline
 from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
 
@@ -54,7 +53,6 @@ class Backdrop:
         samples: int,
     ) -> None:
         self._device = device
-        self._ground_shape = ground
         self._grass_layout = buffers_layout(device, DRAWING, READ, UNIFORM_BINDING)
         layouts_far = [frame_layout, buffers_layout(device, DRAWING), light_layout]
         layouts_near = [frame_layout, self._grass_layout, light_layout]
@@ -69,35 +67,30 @@ class Backdrop:
         )
         self._sky = colour_pipeline(device, layouts_far, "sky", *picture)
         self._grass = colour_pipeline(device, layouts_near, "grass", *picture)
-        self._blade_rows = GrowingBuffer(device, layouts.GRASS_BLADE)
-        self._batch = device.create_buffer(size=layouts.BATCH.itemsize, usage=UNIFORM)
-        self._blade_count = 0
+        self._ground_shape = ground
+        self._lawn: Lawn | None = None
         self._stood_for: Doubles | None = None
         blades = BLADE_TRIANGLES.reshape(1, -1) + 5 * np.arange(GRASS_BATCH, dtype=np.uint32)[:, None]
         self._blades = filled(device, blades.ravel(), wgpu.BufferUsage.INDEX)
 
-    def upload(self, eye: Doubles, planes: Doubles) -> None:
-        """Find the blades of grass in sight of a camera at ``eye`` (3,) with frustum ``planes`` (5, 4)."""
+    def encode(self, encoder: Any, eye: Doubles, planes: Doubles, timestamps: dict[str, Any]) -> None:
+        """Finds the blades of grass in sight of a camera at ``eye`` (3,) with frustum ``planes`` (5, 4)."""
         if self._stood_for is not None and np.array_equal(planes, self._stood_for):
             return
+        if self._lawn is None:
+            self._lawn = Lawn(self._device, self._ground_shape)
         self._stood_for = planes
-        rows = grass_field(self._ground_shape, eye, planes)
-        self._blade_count = len(rows)
-        self._blade_rows.reserve(len(rows))
-        self._blade_rows.write(rows)
-        batch = np.zeros(1, layouts.BATCH)
-        batch["items"] = 0, len(rows), 1, 0
-        self._device.queue.write_buffer(self._batch, 0, batch)
+        self._lawn.record(encoder, eye, planes, timestamps)
 
     def draw_near(self, render_pass: Any) -> None:
         """Record the grass; bind groups 0 and 2 are set."""
-        if self._blade_count == 0:
+        if self._lawn is None:
             return
-        group = bind(self._device, self._grass_layout, self._blade_rows.buffer, self._batch)
+        group = bind(self._device, self._grass_layout, self._lawn.blades, self._lawn.batch)
         render_pass.set_bind_group(1, group)
         render_pass.set_index_buffer(self._blades, "uint32")
         render_pass.set_pipeline(self._grass)
-        render_pass.draw_indexed(BLADE_TRIANGLES.size * GRASS_BATCH, -(-self._blade_count // GRASS_BATCH))
+        render_pass.draw_indexed_indirect(self._lawn.words, 0)
 
     def draw_far(self, render_pass: Any) -> None:
         """Record ground and sky, best after everything that hides them."""

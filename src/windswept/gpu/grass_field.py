@@ -1,4 +1,7 @@
-"""Where blades of meadow grass stand: fixed places in the world, thinned out with distance from the camera."""
+"""Where blades of meadow grass stand: fixed places in the world, thinned out with distance from the camera.
+
+``lawn.py`` finds the same on the card; a test holds the two together.
+"""
 
 from __future__ import annotations
 
@@ -31,10 +34,15 @@ def grass_field(ground: Ground, eye: Doubles, planes: Doubles) -> NDArray[np.voi
     return np.concatenate(rings)
 
 
+def ring_cells(spacing: float, inner: float, outer: float) -> int:
+    """Cells of a ring's lattice from the camera's own to the last one on either side."""
+    return int(np.ceil(outer * (1.0 + BLEND) / spacing))
+
+
 def _ring(
     ground: Ground, eye: Doubles, planes: Doubles, spacing: float, inner: float, outer: float
 ) -> NDArray[np.void]:
-    reach = int(np.ceil(outer * (1.0 + BLEND) / spacing))
+    reach = ring_cells(spacing, inner, outer)
     middle = np.floor(eye[:2] / spacing).astype(np.int64)
     steps = np.arange(-reach, reach + 1)
     x, y = np.meshgrid(middle[0] + steps, middle[1] + steps)

@@ -39,7 +39,7 @@ SAMPLES = 4
 SHADOW_REACH = (20.0, 120.0)
 """Least and greatest distance from the camera to which shadows are drawn, m; twice that of its target if between."""
 PICTURE_FORMAT = "rgba8unorm-srgb"
-STAGES = ("choose", "cull", "curves", "shadows", "blades", "picture")
+STAGES = ("lawn", "choose", "cull", "curves", "shadows", "blades", "picture")
 """Of a frame, as they are timed."""
 
 
@@ -173,14 +173,14 @@ class Renderer:
         scene_view, uniforms = self._look(frame)
         self._device.queue.write_buffer(self._uniforms, 0, uniforms)
         eye = np.asarray(frame.camera.eye, np.float64)
-        if self.meadow is None:
-            self._backdrop.upload(eye, scene_view.planes)
-        elif frame.meadow is not None:
+        if self.meadow is not None and frame.meadow is not None:
             pixels = 0.5 * self.size[1] / np.tan(0.5 * frame.camera.fov_y)
             self.meadow.upload(frame.meadow, Sharpness(eye, scene_view.planes, float(pixels)))
         self._balls.upload(frame.balls)
         encoder = self._device.create_command_encoder()
-        if self.meadow is not None and frame.meadow is not None:
+        if self.meadow is None:
+            self._backdrop.encode(encoder, eye, scene_view.planes, self._times.around("lawn"))
+        elif frame.meadow is not None:
             self.meadow.choose(encoder, self._times.around("choose"))
         if frame.motion is None:
             self._list_plants(frame, scene_view)

@@ -43,6 +43,7 @@ SHADER_SETS = {
     "fit_groups": ("motion", "rotation", "joints", "fit_groups"),
     "pose_links": ("motion", "rotation", "joints", "pose_links"),
     "crown": ("motion", "crown"),
+    "lawn": ("scan", "lawn"),
     "cull": ("cull_types", "scan", "cull"),
     "cull_places": ("types", "scan", "cull_types", "cull_places"),
 }
