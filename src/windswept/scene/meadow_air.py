@@ -33,11 +33,12 @@ class MeadowAir:
 
     def __init__(self, beds: Sequence[Bed]) -> None:
         self._grid = WindGrid([bed for bed in beds if not bed.in_field])
+        self._in_field = any(bed.in_field for bed in beds)
         self._wind: PackedField | None = None
         self._force: PackedField | None = None
 
     def sample(self, wind: Wind, field: Field | None, time: float) -> tuple[PackedField, ...]:
-        """The wind's air, then that of the field with its pushes if there is one: a bed feels ``bed.air`` of them.
+        """The wind's air, then that of the field with its pushes if a bed stands in it: each feels ``bed.air`` of them.
 
         Args:
             wind: over the meadow.
@@ -48,7 +49,7 @@ class MeadowAir:
             Fields in memory that the next call uses again.
         """
         self._wind = self._grid.packed(wind, time, self._wind)
-        if field is None:
+        if field is None or not self._in_field:
             return (self._wind,)
         grid = field.plan.grid
         self._force = pack_field(field.velocity, field.push, grid.origin, grid.cell, self._force)

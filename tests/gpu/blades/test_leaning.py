@@ -214,6 +214,14 @@ def test_breaking_and_what_is_left_agree(device, fescue):
     np.testing.assert_allclose(card.states[0].lean, states[0].lean, atol=1e-5)
 
 
+def test_a_meadow_that_no_wind_moves_steps_nothing(device):
+    card = Leaning(device, [])
+    card.write_air(gusts(0.5))
+    card.step(4)
+    assert card.states == []
+    assert card.clamped_count == 0
+
+
 def test_more_fields_than_the_card_knows_are_refused(device, fescue):
     with pytest.raises(ValueError, match="at most 2"):
         Leaning(device, [fescue]).write_air(*[steady(1.0, 0.0, 0.0)] * 3)
