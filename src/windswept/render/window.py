@@ -174,7 +174,8 @@ class _LiveView:
             return ""
         rate = 1.0 / max(self._frame_time, 1e-6)
         drawn = self._drawn
+        without_room = f", {drawn.refused} plants without room" if drawn.refused else ""
         return (
             f"{rate:.0f} frames/s, {drawn.placements} plants, "
-            f"{drawn.pieces} stem pieces, {drawn.leaves} leaves"
+            f"{drawn.pieces} stem pieces, {drawn.leaves} leaves{without_room}"
         )
