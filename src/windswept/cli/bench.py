@@ -22,6 +22,7 @@ NAMES = (
     "draw",
     "gpu_springs",
     "gpu_blades",
+    "gpu_meadow",
     "gpu_multibody",
     "forest_gpu",
 )
@@ -34,7 +35,7 @@ def command(names: tuple[str, ...], as_json: bool) -> None:
     """Measure speed on this machine, of some parts or of all.
 
     Parts: springs, multibody, levels, accuracy, forest, bend, blades, field, growth, spread, draw, gpu_springs,
-    gpu_blades, gpu_multibody and forest_gpu.
+    gpu_blades, gpu_meadow, gpu_multibody and forest_gpu.
 
     Example: windswept bench springs --json
     """
