@@ -13,9 +13,9 @@ What stays is uploaded once, what moves is uploaded every frame, and one plan ti
           --Backdrop--> ground, sky, and a made-up lawn    (backdrop.py, lawn.py, shaders/grass.wgsl, ...)
                         where a scene has no underbrush
 
-Where the simulation runs on the card too (springs/, blades/), a frame is wind, steps, cull, pose, curves, picture without
-read-back: the card chooses what is drawn, ``Frame.motion`` poses that alone (seating.py, pose_order.py), and nothing of
-a placement is uploaded; ``Frame.meadow`` names the buffer in which blades lean. See
+Where the simulation runs on the card too (springs/, blades/), a frame is wind, steps, cull, pose, curves, picture
+without read-back: the card chooses what is drawn, ``Frame.motion`` poses that alone (seating.py, pose_order.py), and
+nothing of a placement is uploaded; ``Frame.meadow`` names the buffer in which blades lean. See
 docs/decisions/plants-chosen-on-the-card.md and blades-on-the-card.md.
 
 `Renderer` in renderer.py walks down these steps; frame.py holds the nouns it is given. Bind group 0 is the frame's
