@@ -13,6 +13,7 @@ import pytest
 from windswept.gpu import layouts
 from windswept.gpu.frame import Camera, Frame
 from windswept.gpu.meadow import layouts as meadow_layouts
+from windswept.gpu.meadow import meadow_drawing
 from windswept.gpu.meadow.blade_list import BladeRules, Sharpness, blade_list
 from windswept.gpu.meadow.meadow_drawing import BATCH, strip_triangles
 from windswept.gpu.meadow.meadow_rows import LEVELS, MeadowRows
@@ -188,6 +189,26 @@ def test_strips_stay_within_their_batch() -> None:
         low = 2 * (sections + 1) * np.arange(BATCH)
         np.testing.assert_array_equal(indices.min(axis=1), low)
         np.testing.assert_array_equal(indices.max(axis=1), low + 2 * sections + 1)
+
+
+def test_the_last_blades_without_room_are_left_out_and_the_others_as_they_were(
+    device: Any, windy: Simulation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    frame, rules = frame_now(windy), BladeRules(1e-6, (1e9, 1e9), 1e4)
+    whole = stage(windy, SIZE, blade_rules=rules)
+    picture, items = whole.draw(frame), posed_items(whole)
+    room = int(0.4 * items[:, 1].max())
+    monkeypatch.setattr(meadow_drawing, "MOST_JOINTS", room)
+    few = stage(windy, SIZE, blade_rules=rules)
+    shown = few.draw(frame)
+    np.testing.assert_array_equal(posed_items(few), items)
+    fits = items[:, 1] + 2 < room
+    parents = few.meadow.rows.parent[items[fits, 0]]
+    assert set(parents[parents >= 0].tolist()) <= set(items[fits, 0].tolist())
+    assert (parents >= 0).any()
+    posed, all_posed = (posed_joints(renderer)["place"] for renderer in (few, whole))
+    np.testing.assert_array_equal(posed[items[fits, 1]], all_posed[items[fits, 1]])
+    assert (np.abs(shown.astype(int) - picture).max(axis=2) > 20).any()
 
 
 def test_an_empty_frame_of_a_meadow_is_drawn(whole: Any) -> None:

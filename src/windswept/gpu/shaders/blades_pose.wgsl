@@ -163,21 +163,6 @@ fn joint_between(
     ));
 }
 
-// Whether a blade, or what carries it, has no room for its joints; its own are then folded up, so that nothing of it is
-// seen and what hangs on it knows.
-fn without_room(item: vec4u, sections: u32) -> bool {
-    let most = arrayLength(&posed);
-    let parent = item.w >> 4u;
-    var none = item.y + sections >= most;
-    if item.w != NONE { none = none || parent + (item.w & 15u) + 1u >= most || posed[min(parent, most - 1u)].place.w < 0.0; }
-    if none {
-        for (var joint = item.y; joint < min(item.y + sections + 1u, most); joint++) {
-            posed[joint] = PosedJoint(vec4f(0.0, 0.0, 0.0, -1.0), vec4u(0u));
-        }
-    }
-    return none;
-}
-
 @compute @workgroup_size(64)
 fn pose(@builtin(global_invocation_id) id: vec3u) {
     let number = id.x + id.y * 65536u;
@@ -185,7 +170,8 @@ fn pose(@builtin(global_invocation_id) id: vec3u) {
     let item = items[meadow_pass.items.x + number];
     let blade = blades[item.x];
     let run = runs[item.z];
-    if without_room(item, run.rows.z) { return; }
+    // Only where all have two sections (make_room of blade_choice.wgsl), so that what hangs on it comes after it.
+    if item.y + run.rows.z >= arrayLength(&posed) { return; }
     let root = root_of(blade, item.w);
     let chance = f32(blade.bits.w & 0xffffu) / 65536.0;
     let size = blade.place.w;
