@@ -9,7 +9,7 @@ import pytest
 from windswept.gpu import layouts
 from windswept.gpu.plant_drawing import LEAF_BATCH, STEM_BATCH
 from windswept.gpu.wiring import SHADER_SETS, shader_module, shader_text
-from windswept.motion.multibody.constants import RATE_LEAD
+from windswept.motion.multibody import constants
 from windswept.motion.shapes import MAX_ANGLE
 
 WGSL_TYPES = {
@@ -101,8 +101,12 @@ def test_constants_of_the_motion_agree_with_the_shader(line):
     assert line in shader_source("motion")
 
 
-def test_constants_of_coupled_links_agree_with_the_shader():
-    assert f"const RATE_LEAD = {RATE_LEAD};" in shader_source("multibody_types")
+@pytest.mark.parametrize(
+    "name", ["STOP_ANGLE", "STOP_STIFFNESS", "MOST_ANGLE", "PULL_WEIGHT", "RATE_LEAD", "REST_THRESHOLD"]
+)
+def test_constants_of_coupled_links_agree_with_the_shader(name):
+    line = f"const {name} = {getattr(constants, name)};"
+    assert line.replace("e-09", "e-9") in shader_source("multibody_types")
 
 
 def test_uniform_tables_are_as_long_as_their_layouts_say():

@@ -28,7 +28,7 @@ fn advance(column: Column) {
         let b_gain = pace.x * cross(here.turn, joint.direction);
         carried[kept + stride] = settled(carried[kept + stride] + vec4f(b_gain, 0.0));
         let gained = pace.y * rise;
-        let after = clamp(before.xz + pace.x * (before.yw + gained), vec2f(-MAX_ANGLE), vec2f(MAX_ANGLE));
+        let after = clamp(before.xz + pace.x * (before.yw + gained), vec2f(-MOST_ANGLE), vec2f(MOST_ANGLE));
         let rate = before.yw + gained + RATE_LEAD * gained;
         state[column.state + i * stride] = settled(vec4f(after.x, rate.x, after.y, rate.y));
     }

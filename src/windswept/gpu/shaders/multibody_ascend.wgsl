@@ -4,26 +4,28 @@
 //
 // Sums go from a link to its parent in registers where the parent comes next, through a slot at forks alone.
 
-// A thin rod, and drag over velocity times the step's implicit part, which resists like a mass at the drag centre.
-fn with_link(beyond: Beyond, rod: Rod, b: vec3f, leaf: f32, wood: f32) -> Beyond {
+// A thin rod, drag over velocity times the step's implicit part, which resists like a mass at the drag centre, and the
+// inertia that stands for the air's pull.
+fn with_link(beyond: Beyond, rod: Rod, b: vec3f, leaf: f32, wood: f32, stiff: f32) -> Beyond {
     let air = added(across(b, wood), Tensor(leaf * rod.leaf_1.xyz, leaf * rod.leaf_2.xyz));
     let arm = rod.foot.w * b;
     let held = risen(air, arm);
     let half = levered(arm, 0.5 * held);
     let x = rod.mass.y * b;
     var whole = beyond;
-    whole.turning = added(added(beyond.turning, doubled(half)), across(b, rod.mass.z));
+    whole.turning = added(added(beyond.turning, doubled(half)), across(b, rod.mass.z + stiff));
     whole.coupling += held + mat3x3f(0.0, -x.z, x.y, x.z, 0.0, -x.x, -x.y, x.x, 0.0);
     whole.mass = added(beyond.mass, air);
     whole.mass.diagonal += rod.mass.x;
     return whole;
 }
 
-// Torque of both springs and their dampers for rates that stay, and what accelerations add to it.
+// Torque of both springs, their dampers and stops for rates that stay, and what accelerations add to it.
 fn springs_of(rod: Rod, joint: vec4f, ahead: f32) -> vec4f {
     let stiffness = vec2f(rod.axis_1.w, rod.axis_2.w);
-    let lag = ahead + rod.leaf_2.w;
-    return vec4f(-stiffness * (joint.xz + lag * joint.yw), ahead * lag * stiffness);
+    let over = joint.xz - clamp(joint.xz, vec2f(-STOP_ANGLE), vec2f(STOP_ANGLE));
+    let lag = (ahead + rod.leaf_2.w) * select(vec2f(1.0), vec2f(1.0 + STOP_STIFFNESS), over != vec2f(0.0));
+    return vec4f(-stiffness * (joint.xz + STOP_STIFFNESS * over + lag * joint.yw), ahead * lag * stiffness);
 }
 
 // Notes a joint's answer; gives inertia, force and moment as they are felt through the joint.
@@ -58,6 +60,8 @@ fn give_way(beyond: Beyond, joint: Joint, springs: vec4f, record: u32, stride: u
         minus_product(minus_product(beyond.mass, yield_1, push_1), yield_2, push_2),
         beyond.force + rise_1 * push_1 + rise_2 * push_2,
         beyond.torque + rise_1 * turn_1 + rise_2 * turn_2,
+        beyond.pull,
+        beyond.strain,
     );
 }
 
@@ -80,7 +84,11 @@ fn ascend(column: Column) {
         let joint = joint_in_world(rotation, rod, angles_ahead(state_now, ahead));
         beyond.force += pushed.xyz;
         beyond.torque += twisted.xyz;
-        beyond = with_link(beyond, rod, joint.direction, ahead * pushed.w, ahead * twisted.w);
+        let pull = length(records[record + 3u * stride].xyz);
+        beyond.pull += pull;
+        beyond.strain += rod.foot.w * pull;
+        let stiff = PULL_WEIGHT * ahead * ahead * beyond.strain;
+        beyond = with_link(beyond, rod, joint.direction, ahead * pushed.w, ahead * twisted.w, stiff);
         beyond = give_way(beyond, joint, springs_of(rod, state_now, ahead), record, stride);
         if rod.rows.x == NONE { continue; }
         rotation = records[record_of(column, rod.rows.x)];

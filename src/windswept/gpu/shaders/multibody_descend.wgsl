@@ -1,5 +1,5 @@
-// Root to leaf: where every link is half a step ahead, and the force on it, as motion/multibody/descend.py. Writes three
-// rows of every link's record: its rotation; force and leaf drag over velocity; moment and wood drag over velocity.
+// Root to leaf: where every link is half a step ahead, and the force on it, as motion/multibody/descend.py. Writes every
+// link's record: its rotation; force and leaf drag over velocity; moment and wood drag over velocity; the drag.
 
 fn air_at(column: Column, probe: u32, late: f32) -> vec4f {
     let row = column.wind + 2u * probe * column.stride;
@@ -17,6 +17,7 @@ fn weigh_and_drag(rod: Rod, b: vec3f, velocity: vec3f, air: vec4f, pull: vec3f, 
     let torque = cross(b, rod.mass.y * pull + rod.mass.z * b_pull - rod.foot.w * drag);
     records[record + stride] = vec4f(force, leaf);
     records[record + 2u * stride] = vec4f(torque, wood);
+    records[record + 3u * stride] = vec4f(drag, 0.0);
 }
 
 fn descend(column: Column, late: f32) {

@@ -6,9 +6,9 @@ struct Joint {
     axis_2: vec3f,
 }
 
-// Angles that far ahead, at most MAX_ANGLE.
+// Angles that far ahead, at most MOST_ANGLE.
 fn angles_ahead(joint: vec4f, ahead: f32) -> vec2f {
-    return clamp(joint.xz + ahead * joint.yw, vec2f(-MAX_ANGLE), vec2f(MAX_ANGLE));
+    return clamp(joint.xz + ahead * joint.yw, vec2f(-MOST_ANGLE), vec2f(MOST_ANGLE));
 }
 
 // Rotation of a link whose carrier has another.

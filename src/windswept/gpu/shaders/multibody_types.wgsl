@@ -24,9 +24,14 @@ const LATER = 8u;    // links after it hang on its parent too
 
 const CARRIED = 2u;  // rows of a link that last: velocity of its joint, m/s; rate of its direction, 1/s
 const RECORD = 4u;   // rows of a link within a step, see multibody_descend.wgsl and multibody_ascend.wgsl
-const SLOT = 7u;     // rows of a depth within a walk
+const SLOT = 8u;     // rows of a depth within a walk
 const REST_THRESHOLD = 1e-9;
-const RATE_LEAD = 0.5;  // as in motion/multibody/constants.py
+// As in motion/multibody/constants.py.
+const STOP_ANGLE = 1.5;
+const STOP_STIFFNESS = 30.0;
+const MOST_ANGLE = 2.0;
+const PULL_WEIGHT = 4.0;
+const RATE_LEAD = 0.5;
 const TINY = 1e-30;
 
 // What a lane walks over: its links, where its numbers lie, and how far apart.

@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 
 from windswept.motion.lanes import FAST_MATH, WIDTH, clamped, load, settled, store
-from windswept.motion.multibody.constants import MAX_ANGLE, RATE_LEAD, REACH, REST_THRESHOLD
+from windswept.motion.multibody.constants import MOST_ANGLE, RATE_LEAD, REACH, REST_THRESHOLD
 from windswept.motion.multibody.descend import RECORD
 from windswept.motion.registers import load3, store3
 from windswept.motion.rotation import add_scaled, cross, dot
@@ -16,7 +16,7 @@ from windswept.motion.rotation import add_scaled, cross, dot
 _F = np.float32
 _W = np.uintp(WIDTH)
 _THREE = np.uintp(3 * WIDTH)
-_LIMIT: Any = _F(MAX_ANGLE)
+_LIMIT: Any = _F(MOST_ANGLE)
 _LEAD: Any = _F(RATE_LEAD)
 _THRESHOLD: Any = _F(REST_THRESHOLD)
 

@@ -7,10 +7,12 @@ link's children stand in one slot a depth: links are in depth-first order, so th
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numba import njit
 
-from windswept.motion.lanes import FAST_MATH, WIDTH, load, store
+from windswept.motion.lanes import FAST_MATH, WIDTH, clamped, load, store
 from windswept.motion.multibody.constants import (
     DRAG_LEAF,
     INERTIA,
@@ -18,11 +20,14 @@ from windswept.motion.multibody.constants import (
     LEVER,
     MASS,
     MOMENT,
+    PULL_WEIGHT,
     REACH,
     STIFFNESS_1,
     STIFFNESS_2,
+    STOP_ANGLE,
+    STOP_STIFFNESS,
 )
-from windswept.motion.multibody.descend import RECORD
+from windswept.motion.multibody.descend import RECORD, STRAIN
 from windswept.motion.multibody.tensors import (
     across,
     added,
@@ -39,10 +44,17 @@ from windswept.motion.rotation import add_scaled, cross, dot
 _F = np.float32
 _W = np.uintp(WIDTH)
 _THREE = np.uintp(3 * WIDTH)
-_ONE = _F(1.0)
+_ONE: Any = _F(1.0)
+_TINY = _F(1e-30)
+_STOP: Any = _F(STOP_ANGLE)
+_HARD: Any = _F(STOP_STIFFNESS)
+_AT_ONCE = _F(1e12)
+_WEIGHT: Any = _F(PULL_WEIGHT)
 
-SUM = np.uintp(27 * WIDTH)
-"""Scratch of a depth: articulated inertia (turning 6, coupling 9, mass 6), force, moment (3 each)."""
+SUM = np.uintp(29 * WIDTH)
+"""Scratch of a depth: articulated inertia (turning 6, coupling 9, mass 6), force, moment (3 each), the pull of the air
+and that times its lever (1 each)."""
+_PULL = np.uintp(27 * WIDTH)
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
@@ -85,9 +97,9 @@ def store_sum(a, to, since, turning, coupling, mass, force, moment):  # type: ig
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def with_link(c, link, turning, coupling, mass, b, leaf, wood):  # type: ignore[no-untyped-def]
-    """Articulated inertia beyond a joint, with the joint's own link: a thin rod, and ``leaf`` and ``wood`` drag over
-    velocity times the step's implicit part, which resists like a mass at the drag centre.
+def with_link(c, link, turning, coupling, mass, b, leaf, wood, stiff):  # type: ignore[no-untyped-def]
+    """Articulated inertia beyond a joint, with the joint's own link: a thin rod, ``leaf`` and ``wood`` drag over
+    velocity times the step's implicit part, which resists like a mass at the drag centre, and the inertia ``stiff``.
     """
     lever, moment = c[link, LEVER], c[link, MOMENT]
     hold = across(b, wood)
@@ -101,7 +113,7 @@ def with_link(c, link, turning, coupling, mass, b, leaf, wood):  # type: ignore[
     turning = added(turning, turning_of(risen, (b[0] * lever, b[1] * lever, b[2] * lever)))
     m = c[link, MASS]
     return (
-        added(turning, across(b, zero + c[link, INERTIA])),
+        added(turning, across(b, stiff + c[link, INERTIA])),
         summed(summed(coupling, risen), rod),
         added(mass, (air[0] + m, air[1] + m, air[2] + m, air[3], air[4], air[5])),
     )
@@ -109,10 +121,12 @@ def with_link(c, link, turning, coupling, mass, b, leaf, wood):  # type: ignore[
 
 @njit(fastmath=FAST_MATH, forceinline=True)
 def spring(c, link, stiffness, joints, at, ahead):  # type: ignore[no-untyped-def]
-    """Torque of one spring and its damper for a rate that stays, and what an acceleration adds to it."""
-    lag = ahead + c[link, LAG]
-    k = c[link, stiffness]
-    return -k * (load(joints, at) + load(joints, at + _W) * lag), k * ahead * lag
+    """Torque of one spring, its damper and its stop for a rate that stays, and what an acceleration adds to it."""
+    lag, angle = ahead + c[link, LAG], load(joints, at)
+    over = angle - clamped(angle, _STOP)
+    harder = clamped(over * over * _AT_ONCE, _ONE) * _HARD
+    k, lag = c[link, stiffness], (harder + _ONE) * lag
+    return -(k * (angle + over * _HARD + load(joints, at + _W) * lag)), k * ahead * lag
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
@@ -175,6 +189,21 @@ def give_way(c, link, joints, a, record, inertia, force, moment, ahead):  # type
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
+def stiffen(c, link, a, record, children, to, since):  # type: ignore[no-untyped-def]
+    """Adds the pull of the air on a link and all beyond it to a slot; gives what it stiffens the link by, N m.
+
+    Every force counts in full, wherever it points to: where it does not pull, what it adds is far less than the wood.
+    """
+    strain = load(a, record + STRAIN)
+    pull = load(a, children + _PULL) + strain / (c[link, LEVER] + _TINY)
+    strain = strain + load(a, children + _PULL + _W)
+    to, since = to + _PULL, since + _PULL
+    store(a, to, load(a, since) + pull)
+    store(a, to + _W, load(a, since + _W) + pull * c[link, REACH])
+    return strain
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
 def ascend(c, depth, source, joints, a, sums, ahead):  # type: ignore[no-untyped-def]
     """Replaces force and moment in every link's record by the joint's answer.
 
@@ -191,12 +220,15 @@ def ascend(c, depth, source, joints, a, sums, ahead):  # type: ignore[no-untyped
         link = np.uintp(len(depth) - 1 - i)
         record = link * RECORD
         rest = record + _THREE * np.uintp(3)
-        turning, coupling, mass, force, moment = load_sum(a, sums + np.uintp(source[link, 0]) * SUM)
+        children = sums + np.uintp(source[link, 0]) * SUM
+        to, since = sums + np.uintp(depth[link]) * SUM, sums + np.uintp(source[link, 1]) * SUM
+        turning, coupling, mass, force, moment = load_sum(a, children)
+        stiff = stiffen(c, link, a, record, children, to, since) * ahead * ahead * _WEIGHT
         force = add_scaled(force, load3(a, rest), _ONE)
         moment = add_scaled(moment, load3(a, rest + _THREE), _ONE)
         leaf = load(a, rest + _THREE + _THREE) * ahead
         wood = load(a, rest + _THREE + _THREE + _W) * ahead
-        inertia = with_link(c, link, turning, coupling, mass, load3(a, record), leaf, wood)
+        inertia = with_link(c, link, turning, coupling, mass, load3(a, record), leaf, wood, stiff)
         turning, coupling, mass, force, moment = give_way(
             c, link, joints, a, record, inertia, force, moment, ahead
         )
@@ -204,5 +236,4 @@ def ascend(c, depth, source, joints, a, sums, ahead):  # type: ignore[no-untyped
         r = (b[0] * reach, b[1] * reach, b[2] * reach)
         turning, coupling = moved(turning, coupling, mass, r)
         moment = add_scaled(moment, cross(r, force), _ONE)
-        since = sums + np.uintp(source[link, 1]) * SUM
-        store_sum(a, sums + np.uintp(depth[link]) * SUM, since, turning, coupling, mass, force, moment)
+        store_sum(a, to, since, turning, coupling, mass, force, moment)

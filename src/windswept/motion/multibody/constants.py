@@ -16,12 +16,23 @@ AXIS_1, AXIS_2, DIRECTION, REACH, LEVER = 0, 3, 6, 9, 10
 DRAG_LEAF, DRAG_WOOD, MASS, MOMENT, INERTIA = 11, 17, 18, 19, 20
 STIFFNESS_1, STIFFNESS_2, LAG = 21, 22, 23
 
-MAX_ANGLE = 1.5
-"""Where a joint stops, rad: wood that is bent so far at one joint has long left the linear law."""
+STOP_ANGLE, STOP_STIFFNESS = 1.5, 30.0
+"""Where a joint's stop begins, rad, and how much stiffer it is than the wood, which has long left the linear law."""
+MOST_ANGLE = 2.0
+"""No joint goes further, rad."""
+PULL_WEIGHT = 4.0
+"""How much of the pull of the air on what is beyond a link resists the link's turning.
+
+The air's forces turn with the pose, which a step only guesses: a pull is a stiffness of its own, and in a storm it is
+more than the step can follow. A link has that much more inertia, times the square of how far ahead forces are taken.
+"""
 REST_THRESHOLD = 1e-9
 """Angles, rates and velocities below this are put to rest: dying motion must not end in denormals."""
-SETTLING = 0.3
-"""How fast links forget what they carry that no motion of their joints accounts for, 1/s."""
+SETTLING = 38.0
+"""Times the step, to the fourth: how far beyond a step's middle forces are taken, as a share of the step, half at most.
+
+Links then forget what they carry that no motion of their joints accounts for: a hundredth of a step at 120 a second.
+"""
 RATE_LEAD = 0.5
 """How far a joint's rate goes on from the middle of a step, as a share of what it gained up to there.
 
@@ -45,7 +56,7 @@ def warped_step(model: Model) -> float:
 
 def forces_at(model: Model) -> float:
     """How far into a step forces are taken, s: a hair beyond its middle, which keeps the energy exactly."""
-    return warped_step(model) * (0.5 + SETTLING * model.time_step)
+    return warped_step(model) * (0.5 + min((SETTLING * model.time_step) ** 4, 0.5))
 
 
 def joint_lag(model: Model) -> Doubles:
@@ -65,7 +76,7 @@ def pack_multibody(model: Model) -> Floats:
     packed[:, AXIS_2 : AXIS_2 + 3] = skeleton.axes[:, 1]
     packed[:, DIRECTION : DIRECTION + 3] = skeleton.vector / skeleton.length[:, None]
     packed[inner, REACH] = (skeleton.attach * skeleton.length[skeleton.parent])[inner]
-    packed[:, LEVER] = drag.centre * skeleton.length
+    packed[:, LEVER] = np.where(drag.centre > 0.0, drag.centre, 0.5) * skeleton.length
     packed[:, DRAG_LEAF : DRAG_LEAF + 6] = drag.leaf
     packed[:, DRAG_WOOD] = drag.wood
     packed[:, MASS] = rods.mass

@@ -13,6 +13,7 @@ from numba import njit
 
 from windswept.motion.groups import air_of_group, swing_group
 from windswept.motion.lanes import FAST_MATH, WIDTH, clamped, load, sqrt, store
+from windswept.motion.level import CENTRE
 from windswept.motion.multibody.constants import (
     AXIS_1,
     AXIS_2,
@@ -21,7 +22,7 @@ from windswept.motion.multibody.constants import (
     INERTIA,
     LEVER,
     MASS,
-    MAX_ANGLE,
+    MOST_ANGLE,
     MOMENT,
     REACH,
 )
@@ -32,11 +33,13 @@ from windswept.motion.rotation import add_scaled, cross, dot, multiply, rotate
 _F = np.float32
 _W = np.uintp(WIDTH)
 _TINY = _F(1e-30)
-_LIMIT: Any = _F(MAX_ANGLE)
+_LIMIT: Any = _F(MOST_ANGLE)
 
-RECORD = np.uintp(23 * WIDTH)
+RECORD = np.uintp(24 * WIDTH)
 """Scratch of a link: direction, both joint axes (3 each); then first force, moment (3 each), drag of leaves and of wood
-per velocity (1 each), later both rows of the joint's answer (6 each) and its own acceleration (2)."""
+per velocity (1 each), later both rows of the joint's answer (6 each) and its own acceleration (2); strain (1)."""
+STRAIN = np.uintp(23 * WIDTH)
+"""Place in a record of the air's force on a link and its groups, each times its lever, N m."""
 SLOT = np.uintp(13 * WIDTH)
 """Scratch of a depth: rotation (4), angular velocity, joint velocity, rate of the direction (3 each)."""
 
@@ -56,6 +59,12 @@ def drag(c, link, air, v, b):  # type: ignore[no-untyped-def]
         on_leaf[2] * leaf + u[2] * wood,
     )
     return force, leaf, wood
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def length(v):  # type: ignore[no-untyped-def]
+    """Of a vector."""
+    return sqrt(dot(v, v) + _TINY)
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
@@ -119,7 +128,8 @@ def carry(carried, at, now, per_ahead, beyond):  # type: ignore[no-untyped-def]
 
 @njit(fastmath=FAST_MATH, forceinline=True)
 def groups_on(crowd, first, last, groups, wind, a, here, spin, v):  # type: ignore[no-untyped-def]
-    """Swings a range of groups; gives their force and moment about the joint of the link that carries them.
+    """Swings a range of groups; gives their force and moment about the joint of the link that carries them, and the
+    sum of every force times its lever.
 
     Args:
         crowd: constants of the groups, and their probes.
@@ -134,12 +144,13 @@ def groups_on(crowd, first, last, groups, wind, a, here, spin, v):  # type: igno
     """
     g, group_probe = crowd
     zero = spin[0] * _F(0.0)
-    force, moment = (zero, zero, zero), (zero, zero, zero)
+    force, moment, strain = (zero, zero, zero), (zero, zero, zero), zero
     for k in range(first, last):
         carrier = (load4(a, here), (zero, zero, zero), spin, v)
         on = swing_group(g, k, air_of_group(wind, group_probe[k]), groups, carrier)
         force, moment = add_scaled(force, on[0], _F(1.0)), add_scaled(moment, on[1], _F(1.0))
-    return force, moment
+        strain = strain + length(on[0]) * length(constant3(g, k, CENTRE))
+    return force, moment, strain
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
@@ -193,6 +204,7 @@ def descend(  # type: ignore[no-untyped-def]
             ),
         )
         on = groups_on(crowd, group_start[i + 1], group_start[i + 2], groups, wind, a, here, spin, v)
+        strain = length(force) * c[link, LEVER] + on[2]
         force = (
             pull[0] * c[link, MASS] + b_pull[0] * c[link, MOMENT] - force[0] - on[0][0],
             pull[1] * c[link, MASS] + b_pull[1] * c[link, MOMENT] - force[1] - on[0][1],
@@ -200,6 +212,7 @@ def descend(  # type: ignore[no-untyped-def]
         )
         moment = add_scaled(moment, on[1], _F(-1.0))
         record = link * RECORD
+        store(a, record + STRAIN, strain)
         for vector in (b, axis_1, axis_2, force, moment):
             store3(a, record, vector)
             record += three

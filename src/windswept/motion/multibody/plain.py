@@ -12,7 +12,15 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from windswept.motion.model import Model
-from windswept.motion.multibody.constants import RATE_LEAD, forces_at, joint_lag, warped_step
+from windswept.motion.multibody.constants import (
+    PULL_WEIGHT,
+    RATE_LEAD,
+    STOP_ANGLE,
+    STOP_STIFFNESS,
+    forces_at,
+    joint_lag,
+    warped_step,
+)
 from windswept.motion.rods import Doubles
 from windswept.plants.air import reconfiguration
 
@@ -110,11 +118,14 @@ def step_multibody_plain(
     lever = model.drag.centre * model.skeleton.length
     centre = moving.jacobian[:, 0] + lever[:, None, None] * moving.jacobian[:, 1]
     held = np.einsum("lij,ljx->lix", rod_moments(model), (moving.velocity - carried) / ahead)
-    stiffness, lag = 1.0 / model.rods.compliance.ravel(), ahead + np.repeat(joint_lag(model), 2)
+    stiffness, over = 1.0 / model.rods.compliance.ravel(), angles - np.clip(angles, -STOP_ANGLE, STOP_ANGLE)
+    lag = (ahead + np.repeat(joint_lag(model), 2)) * (1.0 + STOP_STIFFNESS * (over.ravel() != 0.0))
     torque = np.einsum("lxm,lx->m", centre, force) - np.einsum("lixm,lix->m", moving.jacobian, held)
-    torque -= stiffness * (angles.ravel() + lag * rates.ravel())
+    torque -= stiffness * ((angles + STOP_STIFFNESS * over).ravel() + lag * rates.ravel())
     matrix = mass_matrix(model, moving) + np.diag(stiffness * ahead * lag)
     matrix += ahead * np.einsum("lxm,lxy,lyn->mn", centre, resistance, centre, optimize=True)
+    turning = PULL_WEIGHT * ahead**2 * strain_plain(model, np.linalg.norm(force, axis=1))
+    matrix += np.einsum("lxm,l,lxn->mn", moving.jacobian[:, 1], turning, moving.jacobian[:, 1], optimize=True)
     rise = np.linalg.solve(matrix, torque)
     carried = carried + (moving.velocity + ahead * moving.jacobian @ rise - carried) * (step / ahead)
     rise = rise.reshape(-1, 2)
@@ -136,6 +147,18 @@ def drag_plain(model: Model, moving: Kinematics, wind: Doubles) -> tuple[Doubles
     across = np.eye(3) - b[:, :, None] * b[:, None, :]
     resistance = (speed * folded)[:, None, None] * leaf + (speed * drag.wood)[:, None, None] * across
     return np.einsum("lxy,ly->lx", resistance, relative), resistance
+
+
+def strain_plain(model: Model, pull: Doubles) -> Doubles:
+    """(L,) sum of all forces (L,) beyond every link's joint, N, times their levers on the link, N m."""
+    skeleton = model.skeleton
+    pull, strain = pull.copy(), pull * model.drag.centre * skeleton.length
+    for link in range(model.link_count - 1, 0, -1):
+        up = skeleton.parent[link]
+        if up >= 0:
+            pull[up] += pull[link]
+            strain[up] += pull[link] * skeleton.attach[link] * skeleton.length[up]
+    return strain
 
 
 def energy(model: Model, angles: Doubles, carried: Doubles) -> float:
