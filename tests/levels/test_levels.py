@@ -223,3 +223,12 @@ def test_zero_tolerance_is_level_zero_in_motion() -> None:
         stepper, state = Stepper(one), rest_state(one, 1)
         states.append(stepper.step(state, wind, wind, 100).joints)
     assert np.array_equal(*states)
+
+
+def test_a_plant_without_drag_has_levels_and_stands_still() -> None:
+    model = build_model(random_tree(1, material=Material(leaf_drag=0.0, wood_drag=0.0)))
+    ladder = build_ladder(simplify(model))
+    assert len(ladder.levels) > 2
+    assert all(np.isfinite(level.group_constants).all() for level in ladder.levels)
+    measured = measure(ladder, 1.0)
+    assert measured.largest.max() == 0.0

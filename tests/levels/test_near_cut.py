@@ -13,6 +13,7 @@ from windswept.levels import (
     Ladder,
     away_from,
     build_ladder,
+    measured_ladder,
     near_cut,
     node_balls,
     outside_view,
@@ -69,6 +70,19 @@ def test_tolerance_follows_the_stated_errors(oak: Ladder) -> None:
     distinct = np.diff(oak.error[1 : len(oak.levels) - 2], prepend=0.0)[1:] > 0.0
     exact = node_tolerance(oak, oak.error[cuts])
     assert exact[distinct] == pytest.approx(oak.tolerance[cuts][distinct], rel=1e-6)
+
+
+def test_coupled_links_are_cut_by_the_errors_of_coupled_levels() -> None:
+    ladder = measured_ladder(build_ladder(simplify(build_model(grow("sugar_maple", 0))), multibody=True))
+    merged = ladder.merged(coupled=True)
+    assert len(merged) > 0
+    assert set(merged).isdisjoint(ladder.merged(coupled=False))
+    looker = eye(0.0, -20.0, 3.0, tolerance=4.0)
+    levels = [
+        near_cut(ladder, node_balls(ladder.hierarchy), looker, looker.position, c) for c in (True, False)
+    ]
+    assert [level.coupled for level in levels] == [True, False]
+    assert 0 < levels[0].group_count < levels[0].link_count < ladder.hierarchy.model.link_count
 
 
 def test_what_cannot_be_seen_counts_as_farther() -> None:

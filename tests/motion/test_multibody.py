@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from coupled_plants import energy_of, pulled
 from handmade import build_plant, random_tree, straight
 from windswept.levels.maximal_wind import maximal_wind
 from windswept.levels.measure import followed_tips, tip_positions
@@ -22,7 +23,6 @@ from windswept.motion import (
 )
 from windswept.motion.multibody import CoupledState, MultibodyStepper, constants, coupled, coupled_rest
 from windswept.motion.multibody.plain import energy, kinematics, mass_matrix, step_multibody_plain
-from windswept.motion.sweeps import joint_torque
 from windswept.plants.plant import Material
 from windswept.plants.sources import grow_source
 from windswept.studies.bench_plants import plant_with_links
@@ -38,23 +38,6 @@ def steady(model: Model, placements: int, speed: float) -> np.ndarray:
     wind = np.zeros((placements, len(model.probe_position), 3), np.float32)
     wind[..., 0] = speed
     return wind
-
-
-def pulled(model: Model, angle: float) -> CoupledState:
-    """At rest, bent as by a pull on all masses until one joint is at an angle."""
-    skeleton, rods = model.skeleton, model.rods
-    force = np.outer(rods.mass, [1.0, 0.3, 0.0])
-    lever = (rods.moment / rods.mass)[:, None] * skeleton.vector
-    tree = (skeleton.parent, 0, skeleton.attach, skeleton.vector, skeleton.axes)
-    bent = joint_torque(*tree, force.copy(), np.cross(lever, force)) * rods.compliance
-    state = rest_state(finest_level(model), 1)
-    state.angles(0)[:] = bent * angle / np.abs(bent).max()
-    return coupled(model, state)
-
-
-def energy_of(model: Model, state: CoupledState) -> float:
-    carried = state.carried[0, :, :, 0].reshape(-1, 2, 3).astype(float)
-    return energy(model, state.angles(0).astype(float), carried)
 
 
 def swung(model: Model, state: CoupledState, seconds: float) -> np.ndarray:

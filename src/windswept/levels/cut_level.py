@@ -116,7 +116,7 @@ def group_constants(hierarchy: Hierarchy, nodes: Ints) -> tuple[Floats, Ints]:
 
     at = skeleton.base[member] + model.drag.centre[member, None] * skeleton.vector[member]
     drag, leaf_drag = influence.drag[member], influence.leaf_drag[member]
-    weight = np.trace(drag, axis1=1, axis2=2)
+    weight = np.maximum(np.trace(drag, axis1=1, axis2=2), 1e-30)
     whole = total(weight)
     centre = total(at * weight[:, None]) / whole[:, None]
     moment = total(np.cross(at[:, :, None], drag, axis=1))

@@ -37,7 +37,7 @@ class Ladder:
 
     hierarchy: Hierarchy
     levels: tuple[Level, ...]
-    """Level K - 2 is `bend`: the whole plant follows the wind's pressure without inertia. K - 1 is still."""
+    """The last stands still; the one before, where it is kept, is `bend`: the plant follows the wind's pressure."""
     error: Doubles
     """(K,) stated error, m: estimated 95 % of tips, or what `with_measured_errors` makes of a measurement."""
     tolerance: Doubles
@@ -46,9 +46,10 @@ class Ladder:
     """(K,) no tip is farther than this from where level 0 has it, in wind up to the stated speed, m; or None."""
 
     def merged(self, coupled: bool) -> Ints:
-        """(n,) levels in which some links are merged, `bend` and still left out, that are coupled or are not."""
-        body = self.levels[:-2]
-        return np.array([k for k, x in enumerate(body) if x.group_count and x.coupled == coupled], np.int32)
+        """(n,) levels in which some links are merged and swing, that are coupled or are not."""
+        return np.array(
+            [k for k, x in enumerate(self.levels) if x.groups_swing and x.coupled == coupled], np.int32
+        )
 
     @property
     def oscillators(self) -> list[int]:

@@ -79,7 +79,7 @@ def measure(
 
 
 def bound_errors(ladder: Ladder, metric: str = "displacement") -> Doubles:
-    """(K,) bound on the error of any tip in wind up to the stated speed, m; never falls from level to level.
+    """(K,) bound on the error of any tip in wind up to the stated speed, m; never falls among levels of one model.
 
     A bound by trial, not by proof: see docs/decisions/bounds-by-maximal-wind.md.
 

@@ -28,7 +28,7 @@ def stated_pressure(model: Model, influence: Influence, speed: float = STATED_WI
     A group reckons the pressure of a wind from its own shares of leaf and wood; this is that of the whole plant.
     """
     leaf = influence.folded * np.trace(influence.leaf_drag, axis1=1, axis2=2).sum()
-    share = leaf / (leaf + np.trace(influence.wood_drag, axis1=1, axis2=2).sum())
+    share = leaf / (leaf + np.trace(influence.wood_drag, axis1=1, axis2=2).sum() + 1e-30)
     folded = float(reconfiguration(model.material, np.array([speed]))[0])
     return speed**2 * (share * folded / influence.folded + 1.0 - share)
 

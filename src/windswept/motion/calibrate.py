@@ -17,6 +17,7 @@ from numba import njit, prange
 from numpy.typing import NDArray
 
 from windswept.motion.model import Model, pack_constants
+from windswept.motion.multibody.constants import joint_lag
 from windswept.motion.rods import Doubles
 from windswept.motion.skeleton import Skeleton
 from windswept.plants.air import reconfiguration
@@ -132,8 +133,8 @@ def joint_answers(model: Model, line: Doubles, travel: Doubles) -> tuple[Complex
     at = (skeleton.base + model.drag.centre[:, None] * skeleton.vector)[:, :2]
     delay = at @ np.array([np.cos(travel), np.sin(travel)]) / (REFERENCE_SPEED * np.cos(travel))
     tree = (skeleton.parent, skeleton.attach, skeleton.vector, axes)
-    lag = (2.0 * model.damping_ratio / model.stem_frequency)[skeleton.stem]
-    return _answers(line, *tree, 1.0 / model.rods.compliance, lag, *spatial_constants(model), delay)
+    springs = 1.0 / model.rods.compliance, joint_lag(model)
+    return _answers(line, *tree, *springs, *spatial_constants(model), delay)
 
 
 def tip_weight(skeleton: Skeleton) -> Doubles:
@@ -159,10 +160,8 @@ def spatial_constants(model: Model) -> tuple[Doubles, Doubles, Doubles]:
     skeleton, rods, air = model.skeleton, model.rods, model.drag
     length, b = skeleton.length, skeleton.vector / skeleton.length[:, None]
     across = np.eye(3) - b[:, :, None] * b[:, None, :]
-    xx, yy, zz, xy, xz, yz = air.leaf.T
-    leaf = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1)
     folded = float(reconfiguration(model.material, np.array([REFERENCE_SPEED]))[0])
-    resistance = REFERENCE_SPEED * (folded * leaf + air.wood[:, None, None] * across)
+    resistance = REFERENCE_SPEED * (folded * air.leaf_tensors + air.wood[:, None, None] * across)
 
     def about_joint(tensor: Doubles, arm: Doubles) -> Doubles:
         """(L, 6, 6) of a (L, 3, 3) tensor that acts at an (L, 3) arm."""

@@ -29,7 +29,13 @@ class Drag:
     wood: Doubles
     """(L,) the coefficient w of its bare stem, kg/m."""
     centre: Doubles
-    """(L,) where along the link the force acts, 0 at the base, 1 at the tip."""
+    """(L,) where along the link the force acts, 0 at the base, 1 at the tip; the middle where there is none."""
+
+    @property
+    def leaf_tensors(self) -> Doubles:
+        """(L, 3, 3) T of every link's leaves."""
+        xx, yy, zz, xy, xz, yz = self.leaf.T
+        return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1)
 
 
 def build_drag(plant: Plant) -> Drag:
@@ -42,6 +48,6 @@ def build_drag(plant: Plant) -> Drag:
     leaf: Doubles = np.column_stack([np.bincount(link, push * n[:, i] * n[:, j], count) for i, j in pairs])
     diameter = plant.link_radius_base.astype(np.float64) + plant.link_radius_tip
     wood = 0.5 * AIR_DENSITY * material.wood_drag * diameter * link_length(plant)
-    leaf_push = np.bincount(link, push, count)
-    centre = np.bincount(link, push * leaf_fraction(plant), count) + 0.5 * wood
-    return Drag(leaf, wood, centre / np.maximum(leaf_push + wood, 1e-30))
+    whole = np.bincount(link, push, count) + wood
+    first = np.bincount(link, push * leaf_fraction(plant), count) + 0.5 * wood
+    return Drag(leaf, wood, np.divide(first, whole, out=np.full(count, 0.5), where=whole > 0.0))

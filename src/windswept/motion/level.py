@@ -73,6 +73,11 @@ class Level:
         return len(self.group_probe)
 
     @property
+    def groups_swing(self) -> bool:
+        """Whether it has groups with inertia: `bend` has none, nor has a plant that stands still."""
+        return bool(self.group_constants[:, GROUP_STEP : GROUP_STEP + 4].any())
+
+    @property
     def listens(self) -> Ints:
         """(L,) what turns each joint of the plant: active link a >= 0, or group g as -1 - g."""
         what = np.empty(len(self.shapes), np.int32)

@@ -15,7 +15,7 @@ import numpy as np
 from windswept.levels.maximal_wind import maximal_wind
 from windswept.levels.measure import followed_tips, tip_positions
 from windswept.levels.training_wind import PLACEMENTS, Air, training_air
-from windswept.motion import Model, build_model, finest_level
+from windswept.motion import Model, build_model, finest_level, rest_state
 from windswept.motion.multibody import MultibodyStepper, coupled, coupled_rest
 from windswept.motion.multibody.plain import energy
 from windswept.motion.rods import Doubles
@@ -82,12 +82,11 @@ def bent_by_a_pull(model: Model) -> Doubles:
 def energy_left(rate: float) -> float:
     """Share of its energy that an undamped tree still has after a minute, at so many steps a second."""
     plant = plant_with_links(SWUNG_LINKS, 0)
-    still = replace(plant.material, damping_ratio=0.0, wood_drag=0.0, leaf_drag=0.0)
-    model = build_model(replace(plant, material=still), time_step=1.0 / rate)
-    state = coupled_rest(model, 1)
-    bent = bent_by_a_pull(model)
-    state.angles(0)[:] = bent * SWUNG_ANGLE / np.abs(bent).max()
-    state = coupled(model, state)
+    free = replace(plant.material, damping_ratio=0.0, wood_drag=0.0, leaf_drag=0.0)
+    model = build_model(replace(plant, material=free), time_step=1.0 / rate)
+    bent, start = bent_by_a_pull(model), rest_state(finest_level(model), 1)
+    start.angles(0)[:] = bent * SWUNG_ANGLE / np.abs(bent).max()
+    state = coupled(model, start)
     calm: Floats = np.zeros((1, len(model.probe_position), 3), np.float32)
 
     def now() -> float:

@@ -5,15 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from coupled_plants import energy_of, pulled
 from handmade import build_plant, random_tree, straight
 from stands import gaps, stand_of
 from windswept.errors import GraphicsError
 from windswept.gpu.multibody.simulation import CoupledSimulation
 from windswept.gpu.springs.kinds import GrownKind
-from windswept.motion import Model, build_model, finest_level, rest_state
-from windswept.motion.multibody import CoupledState, MultibodyStepper, coupled
-from windswept.motion.multibody.plain import energy
-from windswept.motion.sweeps import joint_torque
+from windswept.motion import build_model, finest_level, rest_state
+from windswept.motion.multibody import MultibodyStepper, coupled
 from windswept.plants.plant import Material, Plant
 from windswept.scene.probes import place_probes, wind_at_probes
 from windswept.scene.simulation import Simulation
@@ -37,23 +36,6 @@ def on_card(plants: list[Plant], counts: list[int], time_step: float | None = No
 
 def on_both(plants: list[Plant], counts: list[int]) -> tuple[Simulation, CoupledSimulation]:
     return Simulation(stand_of(plants, counts), plants, multibody=True), on_card(plants, counts)
-
-
-def pulled(model: Model, angle: float) -> CoupledState:
-    """At rest, bent as by a pull on all masses until one joint is at an angle."""
-    skeleton, rods = model.skeleton, model.rods
-    force = np.outer(rods.mass, [1.0, 0.3, 0.0])
-    lever = (rods.moment / rods.mass)[:, None] * skeleton.vector
-    tree = (skeleton.parent, 0, skeleton.attach, skeleton.vector, skeleton.axes)
-    bent = joint_torque(*tree, force.copy(), np.cross(lever, force)) * rods.compliance
-    state = rest_state(finest_level(model), 1)
-    state.angles(0)[:] = bent * angle / np.abs(bent).max()
-    return coupled(model, state)
-
-
-def energy_of(model: Model, state: CoupledState) -> float:
-    carried = state.carried[0, :, :, 0].reshape(-1, 2, 3).astype(float)
-    return energy(model, state.angles(0).astype(float), carried)
 
 
 def test_ten_gusty_seconds(trees):

@@ -76,7 +76,7 @@ def pack_multibody(model: Model) -> Floats:
     packed[:, AXIS_2 : AXIS_2 + 3] = skeleton.axes[:, 1]
     packed[:, DIRECTION : DIRECTION + 3] = skeleton.vector / skeleton.length[:, None]
     packed[inner, REACH] = (skeleton.attach * skeleton.length[skeleton.parent])[inner]
-    packed[:, LEVER] = np.where(drag.centre > 0.0, drag.centre, 0.5) * skeleton.length
+    packed[:, LEVER] = drag.centre * skeleton.length
     packed[:, DRAG_LEAF : DRAG_LEAF + 6] = drag.leaf
     packed[:, DRAG_WOOD] = drag.wood
     packed[:, MASS] = rods.mass

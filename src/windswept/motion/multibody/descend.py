@@ -22,8 +22,8 @@ from windswept.motion.multibody.constants import (
     INERTIA,
     LEVER,
     MASS,
-    MOST_ANGLE,
     MOMENT,
+    MOST_ANGLE,
     REACH,
 )
 from windswept.motion.multibody.joint import half_turn, joint_axes
@@ -127,6 +127,32 @@ def carry(carried, at, now, per_ahead, beyond):  # type: ignore[no-untyped-def]
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
+def weigh(c, link, b, pull, b_pull, drag_force):  # type: ignore[no-untyped-def]
+    """Force and moment that a link's mass asks for to follow the joints while none accelerates, less the drag.
+
+    Args:
+        c: constants.
+        link: which.
+        b: its direction.
+        pull: acceleration of its joint.
+        b_pull: that of its direction.
+        drag_force: at its drag centre.
+    """
+    mass, first, second, lever = c[link, MASS], c[link, MOMENT], c[link, INERTIA], c[link, LEVER]
+    force = (
+        pull[0] * mass + b_pull[0] * first - drag_force[0],
+        pull[1] * mass + b_pull[1] * first - drag_force[1],
+        pull[2] * mass + b_pull[2] * first - drag_force[2],
+    )
+    arm = (
+        pull[0] * first + b_pull[0] * second - drag_force[0] * lever,
+        pull[1] * first + b_pull[1] * second - drag_force[1] * lever,
+        pull[2] * first + b_pull[2] * second - drag_force[2] * lever,
+    )
+    return force, cross(b, arm)
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
 def groups_on(crowd, first, last, groups, wind, a, here, spin, v):  # type: ignore[no-untyped-def]
     """Swings a range of groups; gives their force and moment about the joint of the link that carries them, and the
     sum of every force times its lever.
@@ -195,22 +221,10 @@ def descend(  # type: ignore[no-untyped-def]
         b_pull = carry(carried, kept + three, b_rate, per_ahead, beyond)
         air = load4(wind, np.uintp(probe[link]) * four)
         force, leaf, wood = drag(c, link, air, add_scaled(v, b_rate, c[link, LEVER]), b)
-        moment = cross(
-            b,
-            (
-                pull[0] * c[link, MOMENT] + b_pull[0] * c[link, INERTIA] - force[0] * c[link, LEVER],
-                pull[1] * c[link, MOMENT] + b_pull[1] * c[link, INERTIA] - force[1] * c[link, LEVER],
-                pull[2] * c[link, MOMENT] + b_pull[2] * c[link, INERTIA] - force[2] * c[link, LEVER],
-            ),
-        )
         on = groups_on(crowd, group_start[i + 1], group_start[i + 2], groups, wind, a, here, spin, v)
         strain = length(force) * c[link, LEVER] + on[2]
-        force = (
-            pull[0] * c[link, MASS] + b_pull[0] * c[link, MOMENT] - force[0] - on[0][0],
-            pull[1] * c[link, MASS] + b_pull[1] * c[link, MOMENT] - force[1] - on[0][1],
-            pull[2] * c[link, MASS] + b_pull[2] * c[link, MOMENT] - force[2] - on[0][2],
-        )
-        moment = add_scaled(moment, on[1], _F(-1.0))
+        force, moment = weigh(c, link, b, pull, b_pull, force)
+        force, moment = add_scaled(force, on[0], _F(-1.0)), add_scaled(moment, on[1], _F(-1.0))
         record = link * RECORD
         store(a, record + STRAIN, strain)
         for vector in (b, axis_1, axis_2, force, moment):

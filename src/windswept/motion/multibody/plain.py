@@ -140,12 +140,12 @@ def drag_plain(model: Model, moving: Kinematics, wind: Doubles) -> tuple[Doubles
     air = wind[model.link_probe]
     relative = air - moving.velocity[:, 0] - lever * moving.velocity[:, 1]
     speed = np.linalg.norm(relative, axis=1)
-    xx, yy, zz, xy, xz, yz = drag.leaf.T
-    leaf = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1)
     folded = reconfiguration(model.material, np.linalg.norm(air, axis=1)).astype(np.float64)
     b = moving.direction
     across = np.eye(3) - b[:, :, None] * b[:, None, :]
-    resistance = (speed * folded)[:, None, None] * leaf + (speed * drag.wood)[:, None, None] * across
+    resistance = (speed * folded)[:, None, None] * drag.leaf_tensors + (speed * drag.wood)[
+        :, None, None
+    ] * across
     return np.einsum("lxy,ly->lx", resistance, relative), resistance
 
 
