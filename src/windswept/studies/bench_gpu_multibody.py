@@ -56,7 +56,7 @@ def bytes_per_link_step() -> float:
     """Bytes that one link of one placement asks the card's memory for in one step, along a stem, if nothing stays in a
     cache.
 
-    Its joint is read by all three walks and written by one, what it carries is read and written by two; four rows of its
-    record are written and read, four of the joint's answer too, and the wind at both ends of the interval is read.
+    Its joint is read by all three walks and written by one, what it carries is read and written by two; its record is
+    written and read, and again with the joint's answer; the wind at both ends of the interval is read.
     """
     return ROW * (4 + 4 * CARRIED + 4 * RECORD + 2)
