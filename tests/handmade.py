@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -62,6 +62,12 @@ def random_stem(
 def random_tree(seed: int, orders: int = 3, material: Material = BARE_STIFF) -> Plant:
     rng = np.random.default_rng(seed)
     return build_plant(random_stem(rng, np.zeros(3), np.array([0.0, 0.0, 1.0]), 0, orders - 1), material)
+
+
+def with_leaves(plant: Plant, count: int) -> Plant:
+    """The same plant with its first ``count`` leaves alone."""
+    names = ("link", "position", "axis", "normal", "length", "width")
+    return replace(plant, **{f"leaf_{name}": getattr(plant, f"leaf_{name}")[:count] for name in names})
 
 
 def build_plant(

@@ -1,9 +1,18 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from windswept.geometry.detail import DetailRules, choose_detail, detail_order, stem_size
+from windswept.geometry.detail import (
+    LEAF_RUN,
+    DetailRules,
+    choose_detail,
+    detail_order,
+    in_runs,
+    stem_size,
+)
 
 RULES = DetailRules()
 
@@ -17,7 +26,7 @@ def drawn_area(detail, total):
     """Leaf area relative to all leaves at their own size, out of the ranks' own shrinking."""
     areas = []
     for k in range(len(detail.leaf_count)):
-        rank = np.arange(detail.leaf_count[k])
+        rank = np.arange(min(detail.leaf_count[k], total))
         shrink = np.clip((detail.leaf_cut[k] - rank) / detail.leaf_fade[k], 0.0, 1.0)
         areas.append(np.sum((shrink * detail.leaf_scale[k]) ** 2) / total)
     return np.array(areas)
@@ -43,6 +52,23 @@ def test_detail_falls_with_distance_and_never_jumps(order):
     assert np.abs(np.diff(detail.leaf_scale)).max() < 0.02
 
 
+@pytest.mark.parametrize("total", [0, 1, 2, 7, 300, 301])
+def test_leaves_are_drawn_in_whole_runs_up_to_the_last_that_has_a_size(order, total):
+    few = replace(order, leaf_order=np.arange(total, dtype=np.int32))
+    detail = choose_detail(few, np.geomspace(0.1, 1e5, 400), RULES)
+    assert (detail.leaf_count % LEAF_RUN == 0).all()
+    assert detail.leaf_count.max() == in_runs(total) < total + LEAF_RUN
+    sized = np.minimum(np.ceil(detail.leaf_cut), total)
+    assert ((sized <= detail.leaf_count) & (detail.leaf_count < sized + LEAF_RUN)).all()
+
+
+@pytest.mark.parametrize("total", [1, 7, 301])
+def test_near_by_an_odd_number_of_leaves_has_its_own_size(order, total):
+    detail = choose_detail(replace(order, leaf_order=np.arange(total)), np.array([1e6]), RULES)
+    assert detail.leaf_scale[0] == pytest.approx(1.0)
+    np.testing.assert_allclose(drawn_area(detail, total), 1.0, rtol=1e-6)
+
+
 def test_buckets_are_nested_and_finest_first(order):
     limits = choose_detail(order, np.array([5.0, 50.0, 500.0]), RULES).piece_limit
     assert (np.diff(limits, axis=1) >= 0).all()
@@ -55,8 +81,6 @@ def test_pieces_of_a_stem_share_a_bucket(order, aspen):
 
 
 def test_a_plant_without_leaves_has_an_order(aspen):
-    from dataclasses import replace
-
     bare = replace(
         aspen,
         **{name: getattr(aspen, name)[:0] for name in ("leaf_link", "leaf_rank", "leaf_size")},

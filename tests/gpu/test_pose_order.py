@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from handmade import random_tree
+from handmade import random_tree, with_leaves
 from windswept.geometry.curves import build_geometry
-from windswept.geometry.detail import DetailRules, choose_detail, detail_order
+from windswept.geometry.detail import DetailRules, choose_detail, detail_order, in_runs
 from windswept.gpu.pose_order import pose_order
 from windswept.plants.weber_penn import grow
 
@@ -15,9 +15,12 @@ RULES = DetailRules(stem_pixels=(24.0, 7.0, 2.0, 0.3), leaf_pixels=3.0, leaf_sca
 OTHERS = DetailRules(stem_pixels=(50.0, 20.0, 9.0, 2.0), leaf_pixels=1.0, leaf_scale_limit=2.0)
 
 
-@pytest.fixture(scope="module", params=[4, 7])
+@pytest.fixture(scope="module", params=[(4, 0), (7, 0), (7, 1)])
 def drawn(request):
-    plant = random_tree(request.param)
+    """Two trees, and one with an odd number of leaves."""
+    seed, fewer = request.param
+    plant = random_tree(seed)
+    plant = with_leaves(plant, plant.leaf_count - fewer)
     geometry = build_geometry(plant)
     order = detail_order(geometry)
     return plant, geometry, order, pose_order(geometry, plant.link_parent, order, RULES)
@@ -64,6 +67,13 @@ def test_everything_that_is_drawn_is_posed(drawn, rules):
         needed_links, needed_stems = needed_by(plant, geometry, order, int(pieces), int(leaves))
         assert needed_stems <= set(pose.stem_order[:stems].tolist())
         assert needed_links <= set(pose.link_order[:links].tolist())
+
+
+def test_a_leaf_that_fills_up_a_run_needs_no_more_than_the_last(drawn):
+    plant, _, _, pose = drawn
+    assert len(pose.leaf_reach) == in_runs(plant.leaf_count) + 1
+    last = pose.leaf_reach[plant.leaf_count :]
+    np.testing.assert_array_equal(last, np.broadcast_to(last[0], last.shape))
 
 
 def test_stems_that_are_shifted_find_their_links(drawn):

@@ -26,6 +26,8 @@ SLENDER = 40.0
 """Length over width of a stem whose size for detail is its width."""
 FADE = 0.25
 """Share of the full leaves over which the last ones shrink to nothing."""
+LEAF_RUN = 2
+"""Leaves are drawn in whole runs: which of a plant's leaves throw shadows is nobody else's affair."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +71,7 @@ class Detail:
     size_cut: Floats
     """(P,) stem size at which stems have shrunk to nothing, m."""
     leaf_count: Ints
-    """(P,) leaves drawn."""
+    """(P,) leaves drawn, whole runs; the last may have shrunk to nothing."""
     leaf_cut: Floats
     """(P,) rank at which leaves have shrunk to nothing."""
     leaf_fade: Floats
@@ -95,6 +97,11 @@ def detail_order(geometry: Geometry) -> DetailOrder:
     return DetailOrder(order, size[order], leaf_order, length)
 
 
+def in_runs(leaves: int) -> int:
+    """Rows that so many leaves take: the last run is filled up with leaves of no size."""
+    return -(-leaves // LEAF_RUN) * LEAF_RUN
+
+
 def choose_detail(order: DetailOrder, pixels: Doubles, rules: DetailRules) -> Detail:
     """Detail of every placement.
 
@@ -110,11 +117,12 @@ def choose_detail(order: DetailOrder, pixels: Doubles, rules: DetailRules) -> De
     least = 1.0 / rules.leaf_scale_limit**2
     full = np.clip((on_screen / rules.leaf_pixels) ** 2, least, 1.0) * total
     fade = np.maximum(FADE * full, 1.0)
+    runs = np.ceil((full + fade) / LEAF_RUN)
     drawn_length = on_screen * np.sqrt(total / np.maximum(full, 1.0))
     return Detail(
         piece_limit=limit.astype(np.int32),
         size_cut=cuts[:, -1].astype(np.float32),
-        leaf_count=np.minimum(np.ceil(full + fade), total).astype(np.int32),
+        leaf_count=np.minimum(LEAF_RUN * runs, in_runs(total)).astype(np.int32),
         leaf_cut=(full + fade).astype(np.float32),
         leaf_fade=fade.astype(np.float32),
         leaf_scale=_area_scale(full, fade, total).astype(np.float32),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from windswept.geometry.detail import DetailOrder, DetailRules, detail_order, stem_size
+from windswept.geometry.detail import DetailOrder, DetailRules, detail_order, in_runs, stem_size
 from windswept.geometry.geometry import Geometry
 from windswept.geometry.leaves import LEAF_SHAPES
 from windswept.gpu import layouts
@@ -82,7 +82,7 @@ def plant_arrays(
         )
         stem_first += geometry.stem_count
         piece_first += geometry.piece_count
-        leaf_first += geometry.leaf_count
+        leaf_first += in_runs(geometry.leaf_count)
     return PlantArrays(
         tuple(kinds),
         np.concatenate(stems),
@@ -126,7 +126,7 @@ def _pieces(geometry: Geometry, order: DetailOrder, pose: PoseOrder, link_base: 
 
 
 def _leaves(geometry: Geometry, order: DetailOrder, pose: PoseOrder, link_base: Floats) -> NDArray[np.void]:
-    """Leaves by rank, attachments relative to the joints of their links."""
+    """Leaves by rank in whole runs, attachments relative to the joints of their links."""
     rows = np.zeros(geometry.leaf_count, layouts.LEAF)
     offset = geometry.leaf_position - link_base[geometry.leaf_link]
     chance = (geometry.leaf_rank * 0.6180339887) % 1.0
@@ -135,7 +135,11 @@ def _leaves(geometry: Geometry, order: DetailOrder, pose: PoseOrder, link_base: 
     rows["normal"] = _columns(*geometry.leaf_normal.T, geometry.leaf_openness)
     rows["outward"] = _columns(*geometry.leaf_outward.T, chance)
     rows["rows"] = _columns(pose.link_rank[geometry.leaf_link], pose.stem_rank[geometry.leaf_stem], 0, 0)
-    return rows[order.leaf_order]
+    filling = in_runs(len(rows)) - len(rows)
+    in_order = rows[np.pad(order.leaf_order, (0, filling), mode="edge")]
+    for name in ("position", "axis"):
+        in_order[name][len(rows) :, 3] = 0.0
+    return in_order
 
 
 def _looks(looks: list[Look]) -> NDArray[np.void]:

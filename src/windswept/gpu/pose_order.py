@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from windswept.geometry.detail import FADE, DetailOrder, DetailRules
+from windswept.geometry.detail import FADE, LEAF_RUN, DetailOrder, DetailRules, in_runs
 from windswept.geometry.geometry import Geometry
 from windswept.plants.plant import Ints
 
@@ -29,7 +29,7 @@ class PoseOrder:
     piece_reach: Ints
     """(Q + 1, 2) links and stems, counted from rank 0, that the first 0, 1, ... pieces in drawing order need."""
     leaf_reach: Ints
-    """(N + 1, 2) the same of the first leaves."""
+    """(N + 1, 2) the same of the first leaves; one row more for each leaf that fills up the last run."""
 
     def reach(self, pieces: Ints, leaves: Ints) -> Ints:
         """(P, 2) links and stems that placements need which draw so many pieces and leaves, (P,) each."""
@@ -73,13 +73,15 @@ def pose_order(geometry: Geometry, link_parent: Ints, order: DetailOrder, rules:
         )
         return np.stack([posed_links, posed_stems], axis=1)
 
+    of_leaves = reach(geometry.leaf_link[leaves][:, None], geometry.leaf_stem[leaves])
+    filling = in_runs(len(leaves)) - len(leaves)
     return PoseOrder(
         link_order,
         link_rank,
         stem_order,
         stem_rank,
         reach(geometry.piece_link[pieces], geometry.piece_stem[pieces]),
-        reach(geometry.leaf_link[leaves][:, None], geometry.leaf_stem[leaves]),
+        np.pad(of_leaves, [(0, filling), (0, 0)], mode="edge"),
     )
 
 
@@ -87,7 +89,8 @@ def _first_drawn(order: DetailOrder, rules: DetailRules) -> tuple[Doubles, Doubl
     """(Q,) and (N,) pixels a metre from which each piece and each leaf is drawn: ``choose_detail`` backwards."""
     pieces = rules.stem_pixels[-1] / np.maximum(order.piece_size.astype(np.float64), 1e-9)
     total = len(order.leaf_order)
-    share = np.arange(total) / (max(total, 1) * (1.0 + FADE))
+    run_first = np.arange(total) // LEAF_RUN * LEAF_RUN
+    share = run_first / (max(total, 1) * (1.0 + FADE))
     leaves = rules.leaf_pixels / max(order.leaf_length, 1e-9) * np.sqrt(share)
     return pieces, np.where(share < 1.0 / rules.leaf_scale_limit**2, 0.0, leaves)
 

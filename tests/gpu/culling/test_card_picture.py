@@ -15,8 +15,9 @@ from windswept.scene import moving_kind
 from windswept.scene.camera import View
 
 SIZE = (160, 96)
-LARGEST_MEAN, FAR, LARGEST_SHARE = 1.0, 40, 0.01
-"""As of the golden pictures, of 8-bit channels."""
+ROUNDING, LARGEST_SHARE = 8, 0.002
+"""At most this share of pixels differs by more than so much of an 8-bit channel: a face's edge may fall on the other
+side of a sample."""
 
 
 @pytest.fixture
@@ -41,10 +42,7 @@ def test_near_far_and_out_of_sight(stands):
         view = View(np.array(eye, np.float32), np.array(target, np.float32), 0.8)
         picture = renderer.draw(frame_now(card, view)).astype(int)
         wanted = expected.draw(frame_now(simulation, view)).astype(int)
-        difference = np.abs(picture - wanted)
-        # Every second leaf throws a shadow, so which do depends on the order of the placements.
-        assert difference.mean() < LARGEST_MEAN
-        assert (difference.max(axis=2) > FAR).mean() < LARGEST_SHARE
+        assert (np.abs(picture - wanted).max(axis=2) > ROUNDING).mean() < LARGEST_SHARE
         told = renderer._tally.now(0)
         assert 0 < told.placements <= 120
         assert told.wanted[0] < 0.8 * told.placements * max(k.model.link_count for k in card.kinds)

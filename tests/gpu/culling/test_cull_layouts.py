@@ -6,7 +6,7 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from windswept.geometry.detail import FADE
+from windswept.geometry.detail import FADE, LEAF_RUN
 from windswept.gpu import layouts
 from windswept.gpu.culling import culling
 from windswept.gpu.culling import layouts as cull_layouts
@@ -39,6 +39,7 @@ def test_every_struct_is_compared():
     [
         ("cull", f"const NEAREST = {NEAREST};"),
         ("cull", f"const FADE = {FADE};"),
+        ("cull", f"const LEAF_RUN = {LEAF_RUN:.1f};"),
         ("cull", f"const COLUMNS = {culling.BAND_COLUMNS}u;"),
         ("cull", f"const CLASSES = {cull_layouts.CLASSES}u;"),
         ("cull", f"const GROUP = {cull_layouts.GROUP}u;"),

@@ -33,7 +33,7 @@ def kind_rows(kinds: tuple[Kind, ...]) -> tuple[Rows, NDArray[np.uint32]]:
     """(K,) ``DRAWN_KIND``, and ``prefixes``: of each kind its pieces in drawing order, then its leaves.
 
     A row of ``prefixes`` has the bits of a piece's size, and the link poses and shifted stems that are needed up to
-    it; before the first piece and the first leaf of a kind stands a row of none.
+    it; before the first piece and the first leaf of a kind stands a row of none, and leaves take whole runs.
     """
     rows = np.zeros(len(kinds), DRAWN_KIND)
     prefixes: list[NDArray[np.uint32]] = []
@@ -47,7 +47,7 @@ def kind_rows(kinds: tuple[Kind, ...]) -> tuple[Rows, NDArray[np.uint32]]:
         row["ball"] = *kind.centre, kind.radius
         row["leaf"][0] = kind.order.leaf_length
         row["first"] = kind.stem_first, kind.piece_first, kind.leaf_first, first + len(pieces)
-        row["counts"] = len(pieces) - 1, len(leaves) - 1, first, 0
+        row["counts"] = len(pieces) - 1, len(kind.order.leaf_order), first, 0
         prefixes += [pieces, leaves]
         first += len(pieces) + len(leaves)
     return rows, np.concatenate([np.zeros((0, 4), np.uint32), *prefixes])
@@ -62,7 +62,7 @@ def rank_rows(kinds: tuple[Kind, ...]) -> NDArray[np.uint32]:
 def shortening(plants: tuple[PosedPlants, ...], kinds: tuple[Kind, ...]) -> int:
     """Bits by which the card shortens needs before it adds them up in 32 bits."""
     most = [
-        max(len(k.pose.link_order), len(k.pose.stem_order), len(k.order.piece_order), len(k.order.leaf_order))
+        max(len(k.pose.link_order), len(k.pose.stem_order), len(k.order.piece_order), len(k.pose.leaf_reach))
         for k in kinds
     ]
     total = sum(len(posed.position) * (count + 1) for posed, count in zip(plants, most, strict=True))

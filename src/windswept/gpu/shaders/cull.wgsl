@@ -3,6 +3,7 @@
 
 const NEAREST = 1.0;              // distance at which detail stops growing, m
 const FADE = 0.25;                // share of the full leaves over which the last ones shrink to nothing
+const LEAF_RUN = 2.0;             // leaves are drawn in whole runs
 const BANDS_PER_OCTAVE = 10.0;
 const COLUMNS = 5u;               // of `bands`: those of Sight.room, and placements
 
@@ -52,7 +53,8 @@ fn choose_leaves(kind: DrawnKind, on_screen: f32) -> vec4f {
     let fade = max(FADE * full, 1.0);
     let gap = 1.0 - clamp((total - full) / fade, 0.0, 1.0);
     let area = full + fade / 3.0 * (1.0 - gap * gap * gap);
-    return vec4f(min(ceil(full + fade), total), full + fade, fade, sqrt(total / max(area, 1e-9)));
+    let runs = min(ceil((full + fade) / LEAF_RUN), ceil(total / LEAF_RUN));
+    return vec4f(LEAF_RUN * runs, full + fade, fade, sqrt(total / max(area, 1e-9)));
 }
 
 // choose_detail where a metre takes so many pixels.
