@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from windswept.gpu.draw_list import DrawList, draw_list
 from windswept.gpu.frame import Camera, CardMotion, Frame, PosedPlants
 from windswept.gpu.renderer import Renderer
 from windswept.plants.plant import Plant
+from windswept.plants.pose import rest_pose
 
 SIZE = (160, 96)
 RULES = DetailRules(leaf_pixels=12.0)
@@ -33,6 +34,14 @@ class Wood:
 
     def frame(self, camera: Camera) -> Frame:
         return Frame(self.placed, camera, motion=CardMotion(self.pose, self.speeds))
+
+    def uploaded(self, camera: Camera) -> Frame:
+        """The same with poses that come from the CPU."""
+        posed = [
+            replace(placed, link=rest_pose(plant, len(placed.position)).link)
+            for plant, placed in zip(self.plants, self.placed, strict=True)
+        ]
+        return Frame(tuple(posed), camera)
 
     def listed(self, camera: Camera) -> DrawList:
         """What the CPU chooses."""

@@ -38,6 +38,8 @@ SAMPLES = 4
 """Of a pixel (MSAA)."""
 SHADOW_REACH = (20.0, 120.0)
 """Least and greatest distance from the camera to which shadows are drawn, m; twice that of its target if between."""
+DETAIL_STEP, LEAST_DETAIL = 0.8, 0.3
+"""Where plants in full detail need more room than a card has, that of so much smaller a picture is drawn."""
 PICTURE_FORMAT = "rgba8unorm-srgb"
 STAGES = ("lawn", "choose", "cull", "curves", "shadows", "blades", "picture")
 """Of a frame, as they are timed."""
@@ -113,6 +115,8 @@ class Renderer:
         self.culling = Culling(self._device, self.kinds, self._rules, self._plan)
         self._tally = Tally(self._device, self._plan)
         self._told = Told((0, 0, 0, 0), 0, 0, 0, 0)
+        self._detail = 1.0
+        """Share of the picture's height that detail of plants is chosen for."""
         self._backdrop = Backdrop(self._device, ground, *shared)
         self.meadow: MeadowDrawing | None = None
         if beds:
@@ -150,8 +154,10 @@ class Renderer:
     def draw(self, frame: Frame) -> NDArray[np.uint8]:
         """(height, width, 4) sRGB picture with alpha 255."""
         self.draw_into(self._picture.create_view(), frame)
-        if frame.motion is not None and self._has_grown(self.told_now):
-            return self.draw(frame)
+        if frame.motion is not None:
+            told = self.told_now
+            if self._has_grown(told) or self._has_eased(told):
+                return self.draw(frame)
         width, height = self.size
         data = self._device.queue.read_texture(
             {"texture": self._picture},
@@ -199,6 +205,8 @@ class Renderer:
     def _list_plants(self, frame: Frame, view: View) -> None:
         """Chooses what is drawn here, and sends it with its poses."""
         wanted = draw_list(self.kinds, frame.plants, view, self._rules)
+        while self._has_eased(told_of(wanted)):
+            wanted = draw_list(self.kinds, frame.plants, self._look(frame)[0], self._rules)
         self.posing.upload(frame.plants, wanted)
         self._plan.write(wanted)
         self._told = told_of(wanted)
@@ -211,6 +219,7 @@ class Renderer:
         if told is not None:
             self._told = told
             self._has_grown(told)
+            self._has_eased(told)
         self.culling.record(encoder, view, self.posing.room, motion.speeds, self._times.around("cull"))
         motion.pose(encoder, self.culling.seating(self.posing.links.buffer))
         self._tally.copy(encoder)
@@ -222,6 +231,13 @@ class Renderer:
         if lacks:
             self.posing.reserve(wanted)
         return lacks
+
+    def _has_eased(self, told: Told) -> bool:
+        """Chooses less detail from now on where this card has no room for a frame's; says whether it does."""
+        if self.posing.affordable(told.wanted) == told.wanted or self._detail < LEAST_DETAIL:
+            return False
+        self._detail *= DETAIL_STEP
+        return True
 
     @property
     def stage_milliseconds(self) -> dict[str, float]:
@@ -321,4 +337,12 @@ class Renderer:
         rows["wind"] = *frame.wind, frame.wind[0] * frame.time, frame.wind[1] * frame.time
         rows["terrain"] = *self._ground.origin, self._ground.spacing, self.meadow is not None
         texel = 2.0 * radius / SHADOW_TEXELS
-        return View(frame.camera, height, frustum_planes(camera), sun, centre, radius, texel), rows
+        return View(
+            frame.camera,
+            max(1, int(self._detail * height)),
+            frustum_planes(camera),
+            sun,
+            centre,
+            radius,
+            texel,
+        ), rows
