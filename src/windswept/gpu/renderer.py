@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -18,7 +18,7 @@ from windswept.gpu.buffers import UNIFORM
 from windswept.gpu.culling import Culling, Tally, Told, told_of
 from windswept.gpu.daylight import EXTINCTION, daylight
 from windswept.gpu.device import is_software, shared_device
-from windswept.gpu.draw_list import View, draw_list
+from windswept.gpu.draw_list import DrawList, View, draw_list
 from windswept.gpu.draw_plan import DrawPlan
 from windswept.gpu.frame import FLAT_GROUND, CardMotion, Frame, Ground
 from windswept.gpu.lighting import SHADOW_TEXELS, Lighting
@@ -38,8 +38,8 @@ SAMPLES = 4
 """Of a pixel (MSAA)."""
 SHADOW_REACH = (20.0, 120.0)
 """Least and greatest distance from the camera to which shadows are drawn, m; twice that of its target if between."""
-DETAIL_STEP, LEAST_DETAIL = 0.8, 0.3
-"""Where plants in full detail need more room than a card has, that of so much smaller a picture is drawn."""
+LEAST_DETAIL = 0.3
+"""Where plants need more room than a card has, they are drawn as in a picture of down to this share of the height."""
 PICTURE_FORMAT = "rgba8unorm-srgb"
 STAGES = ("lawn", "choose", "cull", "curves", "shadows", "blades", "picture")
 """Of a frame, as they are timed."""
@@ -115,8 +115,6 @@ class Renderer:
         self.culling = Culling(self._device, self.kinds, self._rules, self._plan)
         self._tally = Tally(self._device, self._plan)
         self._told = Told((0, 0, 0, 0), 0, 0, 0, 0)
-        self._detail = 1.0
-        """Share of the picture's height that detail of plants is chosen for."""
         self._backdrop = Backdrop(self._device, ground, *shared)
         self.meadow: MeadowDrawing | None = None
         if beds:
@@ -154,10 +152,8 @@ class Renderer:
     def draw(self, frame: Frame) -> NDArray[np.uint8]:
         """(height, width, 4) sRGB picture with alpha 255."""
         self.draw_into(self._picture.create_view(), frame)
-        if frame.motion is not None:
-            told = self.told_now
-            if self._has_grown(told) or self._has_eased(told):
-                return self.draw(frame)
+        if frame.motion is not None and self._has_grown(self.told_now):
+            return self.draw(frame)
         width, height = self.size
         data = self._device.queue.read_texture(
             {"texture": self._picture},
@@ -204,9 +200,7 @@ class Renderer:
 
     def _list_plants(self, frame: Frame, view: View) -> None:
         """Chooses what is drawn here, and sends it with its poses."""
-        wanted = draw_list(self.kinds, frame.plants, view, self._rules)
-        while self._has_eased(told_of(wanted)):
-            wanted = draw_list(self.kinds, frame.plants, self._look(frame)[0], self._rules)
+        wanted = self._list_that_fits(frame, view)
         self.posing.upload(frame.plants, wanted)
         self._plan.write(wanted)
         self._told = told_of(wanted)
@@ -219,7 +213,6 @@ class Renderer:
         if told is not None:
             self._told = told
             self._has_grown(told)
-            self._has_eased(told)
         self.culling.record(encoder, view, self.posing.room, motion.speeds, self._times.around("cull"))
         motion.pose(encoder, self.culling.seating(self.posing.links.buffer))
         self._tally.copy(encoder)
@@ -232,12 +225,24 @@ class Renderer:
             self.posing.reserve(wanted)
         return lacks
 
-    def _has_eased(self, told: Told) -> bool:
-        """Chooses less detail from now on where this card has no room for a frame's; says whether it does."""
-        if self.posing.affordable(told.wanted) == told.wanted or self._detail < LEAST_DETAIL:
-            return False
-        self._detail *= DETAIL_STEP
-        return True
+    def _list_that_fits(self, frame: Frame, view: View) -> DrawList:
+        """What is drawn, in the detail of a smaller picture where this card has no room for that of the picture's own.
+
+        The largest such picture is sought by halving, so that detail goes smoothly with what is seen.
+        """
+        wanted = draw_list(self.kinds, frame.plants, view, self._rules)
+        if self.posing.affordable(wanted.counts) == wanted.counts:
+            return wanted
+        low, high = int(LEAST_DETAIL * view.screen_height), view.screen_height
+        fitting = draw_list(self.kinds, frame.plants, replace(view, screen_height=low), self._rules)
+        while high - low > max(1, view.screen_height // 50):
+            middle = (low + high) // 2
+            wanted = draw_list(self.kinds, frame.plants, replace(view, screen_height=middle), self._rules)
+            if self.posing.affordable(wanted.counts) == wanted.counts:
+                low, fitting = middle, wanted
+            else:
+                high = middle
+        return fitting
 
     @property
     def stage_milliseconds(self) -> dict[str, float]:
@@ -339,7 +344,7 @@ class Renderer:
         texel = 2.0 * radius / SHADOW_TEXELS
         return View(
             frame.camera,
-            max(1, int(self._detail * height)),
+            height,
             frustum_planes(camera),
             sun,
             centre,

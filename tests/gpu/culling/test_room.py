@@ -7,19 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from windswept.gpu import layouts, posing, renderer
+from windswept.gpu import layouts, posing
 from windswept.gpu.culling.standing_rows import shortening
 from windswept.gpu.culling.tally import LATE
 from windswept.gpu.frame import Camera
 from woods import Wood, wood_renderer
 
 CAMERA = Camera((0.0, 0.0, 1.7), (10.0, 3.0, 2.0))
-
-
-@pytest.fixture
-def full_detail(monkeypatch):
-    """Detail stays, whatever there is room for."""
-    monkeypatch.setattr(renderer, "LEAST_DETAIL", 2.0)
 
 
 def another(wood: Wood) -> Wood:
@@ -33,9 +27,7 @@ def draw_into(wood: Wood, camera: Camera):
 
 @pytest.mark.parametrize("share", [0.7, 0.4, 0.05])
 @pytest.mark.parametrize("column", range(4))
-def test_the_nearest_find_seats_and_the_others_are_counted(
-    wood, device, monkeypatch, full_detail, share, column
-):
+def test_the_nearest_find_seats_and_the_others_are_counted(wood, device, monkeypatch, share, column):
     wanted = wood.listed(CAMERA)
     row_bytes = [store.row_bytes for store in wood.renderer.posing._stores]
     monkeypatch.setattr(posing, "MOST_BYTES", int(share * wanted.counts[column]) * row_bytes[column])
@@ -66,23 +58,25 @@ def test_the_nearest_find_seats_and_the_others_are_counted(
     assert told.refused > 0
 
 
-@pytest.mark.parametrize("on_card", [False, True])
-def test_detail_falls_until_there_is_room_for_all(wood, monkeypatch, on_card):
+def test_listed_plants_are_drawn_in_less_detail_where_there_is_no_room(wood, monkeypatch):
     wanted = wood.listed(CAMERA)
     needed = [
         n * store.row_bytes for n, store in zip(wanted.counts, wood.renderer.posing._stores, strict=True)
     ]
-    monkeypatch.setattr(posing, "MOST_BYTES", int(0.8 * max(needed)))
-    poor = another(wood)
-    poor.renderer.draw(wood.frame(CAMERA) if on_card else wood.uploaded(CAMERA))
-    told = poor.renderer.told_now if on_card else poor.renderer._told
-    assert told.refused == 0
+    away = Camera((200.0, 0.0, 3.0), (0.0, 0.0, 3.0))
+    far = another(wood).renderer.draw(wood.uploaded(away))
+    monkeypatch.setattr(posing, "MOST_BYTES", int(0.9 * max(needed)))
+    poor = another(wood).renderer
+    poor.draw(wood.uploaded(CAMERA))
+    told = poor._told
     assert told.placements == len(wanted.placements)
-    assert told.wanted == poor.renderer.posing.affordable(told.wanted)
+    assert told.wanted == poor.posing.affordable(told.wanted)
     assert 0 < told.leaves < wanted.leaf_count
+    # Nothing of it is remembered.
+    np.testing.assert_array_equal(poor.draw(wood.uploaded(away)), far)
 
 
-def test_with_room_for_nobody_only_ground_and_sky_are_drawn(wood, monkeypatch, full_detail):
+def test_with_room_for_nobody_only_ground_and_sky_are_drawn(wood, monkeypatch):
     monkeypatch.setattr(posing, "MOST_BYTES", 64)
     poor = another(wood)
     nobody = tuple(
