@@ -12,7 +12,7 @@ from PIL import Image
 
 from windswept.cli import main
 from windswept.errors import GraphicsError
-from windswept.gpu import failures
+from windswept.gpu import failures, posing
 from windswept.gpu.blades import leaning
 from windswept.gpu.device import TIMESTAMPS, shared_device
 from windswept.gpu.springs import simulation
@@ -26,9 +26,22 @@ def test_a_picture_of_a_plant_that_is_simulated_on_the_card(
     report = json.loads(capsys.readouterr().out)
     assert report["plants"] == sum(report["placements_by_level"]) == 1
     assert report["simulated_s"] == 0.5
+    assert report["refused"] == 0
     assert "steps_per_second" not in report
     with Image.open(picture) as image:
         assert image.size == (96, 64)
+
+
+def test_plants_without_room_are_told_of(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(posing, "MOST_BYTES", 64)
+    picture = tmp_path / "hazel.png"
+    main(["render", "hazel", "-o", str(picture), "--size", "96x64", "--at", "0.1", "--gpu", "--json"])
+    said = capsys.readouterr()
+    assert "1 plants found no room on the card" in said.err
+    report = json.loads(said.out)
+    assert (report["refused"], report["held_levels"]) == (1, 0)
 
 
 def test_too_little_memory_is_said_and_the_cpu_goes_on(

@@ -9,6 +9,7 @@ import pytest
 
 from windswept.cli.view import view_scene
 from windswept.gpu.frame import Camera
+from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.render import window
 from windswept.scene.load_scene import build_scene, load_scene
 from windswept.scene.scene import Scene
@@ -35,6 +36,14 @@ def test_a_frame_follows_the_sliders_and_the_camera(gpu: bool, monkeypatch: pyte
     assert "links stepped" in controls.counters
     assert (frame.motion is not None) == gpu
     assert (frame.plants[0].link is None) == gpu
+
+
+def test_who_stays_at_a_level_for_want_of_room_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    advance = opened(load_scene("hazel", 1), True, monkeypatch)[2]
+    monkeypatch.setattr(GpuSimulation, "refused_count", 1234)
+    controls = window.Controls()
+    advance(0.1, controls, Camera((1.0, -9.0, 2.0), (0.0, 0.0, 1.5)))
+    assert "1,234 plants without room for another level" in controls.counters
 
 
 @pytest.mark.parametrize("gpu", [False, True])

@@ -87,9 +87,12 @@ def command(
     if duration is not None:
         scene = replace(scene, duration=duration)
     figures = render_scene(scene, output, size, at, levels, level_colours, gpu=gpu, multibody=multibody)
-    if figures.get("clamped"):
+    if figures["clamped"]:
         line = "forces and speeds were held back: no number, or too large to be meant"
         click.echo(f"windswept: {figures['clamped']:,} {line}", err=True)
+    if figures["refused"]:
+        line = "plants found no room on the card and are missing from a picture"
+        click.echo(f"windswept: {figures['refused']:,} {line}", err=True)
     if as_json:
         click.echo(json.dumps(figures))
 
@@ -181,9 +184,11 @@ def render_scene(
         "links": simulation.link_count,
         "stepped": simulation.stepped_count,
         "placements_by_level": simulation.placements_by_level,
+        "held_levels": 0 if isinstance(simulation, Simulation) else simulation.refused_count,
         "tufts": scene.tuft_count,
         "blades": 0 if simulation.meadow is None else simulation.meadow.blade_count,
         "clamped": simulation.clamped_count,
+        "refused": spent.refused,
         "simulated_s": round(simulation.time, 3),
         **speed,
         "stage_ms": {name: round(ms, 3) for name, ms in spent.stage_milliseconds.items()},

@@ -106,5 +106,7 @@ def _counters(simulation: Simulation | GpuSimulation) -> str:
     )
     if isinstance(simulation, Simulation):
         return links
+    held = simulation.refused_count
+    without_room = f", {held:,} plants without room for another level" if held else ""
     stages = ", ".join(f"{stage} {ms:.1f} ms" for stage, ms in simulation.stage_milliseconds.items())
-    return f"{links}\n{stages}"
+    return f"{links}{without_room}\n{stages}"

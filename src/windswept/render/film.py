@@ -40,6 +40,8 @@ class Spent:
     """Wall time, s; a card works on while the CPU goes ahead."""
     stage_milliseconds: dict[str, float]
     """By the card's clock, of the simulation's last steps if it ran there, and of the last picture."""
+    refused: int
+    """Placements that the card had no room to draw, in the frame that lacked most."""
 
 
 def check_film(path: Path) -> None:
@@ -65,13 +67,13 @@ def film_picture(simulation: Running, path: Path, at: float, shot: Shot) -> Spen
         GraphicsError: there is no graphics adapter.
     """
     check_film(path)
-    renderer = _stage(simulation, shot.size, DetailRules())
-    started = time.perf_counter()
-    simulation.advance(at)
-    seconds = time.perf_counter() - started
-    render_picture(renderer, frame_of(simulation, shot), path)
+    renderer, meter = _stage(simulation, shot.size, DetailRules()), _Meter()
+    meter.advance(simulation, at)
+    frame = frame_of(simulation, shot)
+    render_picture(renderer, frame, path)
+    meter.note_refused(renderer, frame)
     shot.progress(1, 1)
-    return Spent(seconds, _stage_times(simulation, renderer))
+    return Spent(meter.simulating, _stage_times(simulation, renderer), meter.refused)
 
 
 def film_video(simulation: Running, path: Path, shot: Shot, still: tuple[Path, float] | None = None) -> Spent:
@@ -90,12 +92,12 @@ def film_video(simulation: Running, path: Path, shot: Shot, still: tuple[Path, f
     check_film(path)
     if still:
         check_place(still[0], PICTURE_ENDINGS)
-    scene, clock = simulation.scene, _Clock()
+    scene, meter = simulation.scene, _Meter()
     total = scene.frame_count
     renderer = _stage(simulation, shot.size)
-    frames = _frames(simulation, total, shot, clock, still)
+    frames = _frames(simulation, renderer, shot, meter, still)
     render_video(renderer, frames, path, scene.frames_per_second, lambda done: shot.progress(done, total))
-    return Spent(clock.seconds, _stage_times(simulation, renderer))
+    return Spent(meter.simulating, _stage_times(simulation, renderer), meter.refused)
 
 
 def _stage_times(simulation: Running, renderer: Renderer) -> dict[str, float]:
@@ -104,25 +106,40 @@ def _stage_times(simulation: Running, renderer: Renderer) -> dict[str, float]:
     return on_card | renderer.stage_milliseconds
 
 
-class _Clock:
-    """Wall time spent on one thing among others."""
+@dataclass(slots=True)
+class _Meter:
+    """What a film takes, added up frame by frame; see ``Spent``."""
 
-    seconds = 0.0
+    simulating: float = 0.0
+    refused: int = 0
+
+    def advance(self, simulation: Running, seconds: float) -> None:
+        """Lets time pass in a simulation, by the clock."""
+        started = time.perf_counter()
+        simulation.advance(seconds)
+        self.simulating += time.perf_counter() - started
+
+    def note_refused(self, renderer: Renderer, frame: Frame) -> None:
+        """Takes down who found no room in the frame that was drawn last; those whose poses come from the CPU all do."""
+        if frame.motion is not None:
+            self.refused = max(self.refused, renderer.told_now.refused)
 
 
 def _frames(
-    simulation: Running, count: int, shot: Shot, clock: _Clock, still: tuple[Path, float] | None
+    simulation: Running, renderer: Renderer, shot: Shot, meter: _Meter, still: tuple[Path, float] | None
 ) -> Iterator[Frame]:
+    """All frames of a scene; each is drawn by ``renderer`` before the next is asked for."""
     step = 1.0 / simulation.scene.frames_per_second
-    for index in range(count):
+    for index in range(simulation.scene.frame_count):
         if index:
-            started = time.perf_counter()
-            simulation.advance(step)
-            clock.seconds += time.perf_counter() - started
+            meter.advance(simulation, step)
         frame = frame_of(simulation, shot)
         if still and abs(index * step - still[1]) <= 0.5 * step:
-            render_picture(_stage(simulation, shot.size, DetailRules()), frame, still[0])
+            finest = _stage(simulation, shot.size, DetailRules())
+            render_picture(finest, frame, still[0])
+            meter.note_refused(finest, frame)
         yield frame
+        meter.note_refused(renderer, frame)
 
 
 def _stage(simulation: Running, size: tuple[int, int], rules: DetailRules | None = None) -> Renderer:
