@@ -13,9 +13,9 @@ from windswept.geometry.detail import DetailRules
 from windswept.gpu.meadow.blade_list import BladeRules
 from windswept.gpu.springs.kinds import kinds_of
 from windswept.gpu.springs.simulation import GpuSimulation
-from windswept.levels import build_ladder, simplify
+from windswept.levels import Eye, build_ladder, simplify
 from windswept.motion import build_model
-from windswept.render.staging import frame_now, stage
+from windswept.render.staging import LevelLooks, frame_now, stage
 from windswept.scene.camera import View
 from windswept.scene.load_scene import build_scene
 from windswept.scene.simulation import Simulation
@@ -79,6 +79,19 @@ def test_the_picture_of_a_meadow_is_that_of_the_cpu(meadows):
         seen.append(from_card)
     changed = np.abs(seen[0].astype(int) - seen[1]).max(axis=2) > 20
     assert changed.mean() > 0.05, "the ball rolls on and the grass closes behind it"
+
+
+def test_level_colours_are_sent_when_somebody_changes_and_then_no_more(stands):
+    _, card = stands
+    renderer, looks = stage(card, SIZE), LevelLooks()
+    place = renderer.culling.place
+    assert place(frame_now(card.advance(0.5), level_looks=looks).plants)
+    worn = [posed.extra_look for posed in frame_now(card.advance(0.5), level_looks=looks).plants]
+    assert not place(frame_now(card.advance(0.1), level_looks=looks).plants)
+    card.eye = Eye(np.array([0.0, -3000.0, 2.0], np.float32), 0.8)
+    assert place(frame_now(card.advance(1.0), level_looks=looks).plants)
+    assert all((now != before).any() for now, before in zip(looks.of(card), worn, strict=True))
+    card.eye = None
 
 
 def test_blades_are_timed_as_well(meadows, device_has_clock):

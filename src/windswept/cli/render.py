@@ -154,13 +154,14 @@ def render_scene(
 ) -> dict[str, Any]:
     """Simulates and draws a scene with progress on stderr, and says what it took."""
     from windswept.render.film import Shot
+    from windswept.render.staging import LevelLooks
 
     started = time.perf_counter()
     with status_line("growing plants") as say:
         simulation = start(scene, levels, size, gpu, say, multibody)
     ready = time.perf_counter()
     with progress_bar(f"drawing {output.name}") as progress:
-        shot = Shot(size, level_colours, progress)
+        shot = Shot(size, LevelLooks() if level_colours else None, progress)
         try:
             spent = _film(simulation, output, at, shot, still)
         except GraphicsError as error:

@@ -65,7 +65,7 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, mul
     from windswept.geometry.curves import build_geometry
     from windswept.gpu.frame import Camera, Frame
     from windswept.render.film import Shot, frame_of
-    from windswept.render.staging import LEVEL_LOOKS, camera_of, ground_grid
+    from windswept.render.staging import LEVEL_LOOKS, LevelLooks, camera_of, ground_grid
     from windswept.render.window import Controls, require_display, show_window
     from windswept.scene.camera import view_at
 
@@ -75,7 +75,7 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, mul
         plants = [kind.plant for kind in simulation.kinds]
         geometries = [build_geometry(plant) for plant in plants]
 
-    shot, frames = Shot(level_colours=level_colours), count()
+    shot, frames = Shot(level_looks=LevelLooks() if level_colours else None), count()
 
     def advance(seconds: float, controls: Controls, camera: Camera) -> Frame:
         simulation.wind = blown(scene.wind, controls.wind_speed, controls.wind_heading)

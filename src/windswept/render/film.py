@@ -14,7 +14,7 @@ from windswept.gpu.meadow.blade_list import BladeRules
 from windswept.gpu.renderer import Renderer
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.render.offscreen import render_picture
-from windswept.render.staging import Running, frame_now, stage
+from windswept.render.staging import LevelLooks, Running, frame_now, stage
 from windswept.render.video import VIDEO_ENDINGS, render_video
 
 PICTURE_ENDINGS = (".png",)
@@ -26,8 +26,8 @@ class Shot:
 
     size: tuple[int, int] = (1280, 720)
     """Width and height, pixels."""
-    level_colours: bool = False
-    """Colour every plant by its simulation level."""
+    level_looks: LevelLooks | None = None
+    """Colours every plant by its simulation level; None for its own colours."""
     progress: Callable[[int, int], None] = lambda done, total: None
     """Told frames done and frames in all."""
 
@@ -149,4 +149,4 @@ def _stage(simulation: Running, size: tuple[int, int], rules: DetailRules | None
 
 def frame_of(simulation: Running, shot: Shot) -> Frame:
     """What is to be seen at this moment."""
-    return frame_now(simulation, level_colours=shot.level_colours)
+    return frame_now(simulation, level_looks=shot.level_looks)

@@ -71,18 +71,38 @@ def stage(
     )
 
 
-def frame_now(simulation: Running, view: View | None = None, level_colours: bool = False) -> Frame:
+class LevelLooks:
+    """What placements wear by simulation level: the same arrays while nobody changes, so that a card keeps its rows."""
+
+    def __init__(self) -> None:
+        self._last: list[Ints] = []
+
+    def of(self, simulation: Running) -> list[Ints]:
+        """(P,) index into LEVEL_LOOKS of every placement, kind by kind; from the card levels have to be read back."""
+        if isinstance(simulation, GpuSimulation):
+            looks = [
+                level_colour(kind.levels, at)
+                for kind, at in zip(simulation.kinds, simulation.levels_now, strict=True)
+            ]
+        else:
+            looks = [level_colour([s.level for s in kind.sets], kind.at) for kind in simulation.kinds]
+        last = self._last or looks
+        self._last = [old if np.array_equal(old, new) else new for old, new in zip(last, looks, strict=True)]
+        return self._last
+
+
+def frame_now(simulation: Running, view: View | None = None, level_looks: LevelLooks | None = None) -> Frame:
     """What is to be seen at this moment; of a simulation on the card, draw it before the simulation advances.
 
     Args:
         simulation: at the moment to draw.
         view: from where; None for the scene's own camera.
-        level_colours: colour every plant by how few oscillators move it; from the card that has to be read back.
+        level_looks: colours every plant by how few oscillators move it, one for all frames of a film; None for its own.
     """
     scene = simulation.scene
     x, y = simulation.wind.mean.vector
     return Frame(
-        plants=_plants(simulation, level_colours),
+        plants=_plants(simulation, level_looks),
         camera=camera_of(view_at(scene.camera, simulation.time) if view is None else view),
         sun=_triple(scene.sun_direction),
         time=simulation.time,
@@ -93,34 +113,30 @@ def frame_now(simulation: Running, view: View | None = None, level_colours: bool
     )
 
 
-def _plants(simulation: Running, level_colours: bool) -> tuple[PosedPlants, ...]:
+def _plants(simulation: Running, level_looks: LevelLooks | None) -> tuple[PosedPlants, ...]:
     """All plants, with the poses that they have; on the card these stay where they are."""
+    looks = [None] * len(simulation.kinds) if level_looks is None else level_looks.of(simulation)
     if isinstance(simulation, GpuSimulation):
-        return _plants_on_card(simulation, level_colours)
+        return _plants_on_card(simulation, looks)
     return tuple(
-        PosedPlants(
-            pose.link,
-            kind.placements.position,
-            kind.placements.yaw,
-            flutter(speeds),
-            level_colour([s.level for s in kind.sets], kind.at) if level_colours else None,
+        PosedPlants(pose.link, kind.placements.position, kind.placements.yaw, flutter(speeds), look)
+        for kind, pose, speeds, look in zip(
+            simulation.kinds, simulation.pose, simulation.wind_speeds, looks, strict=True
         )
-        for kind, pose, speeds in zip(simulation.kinds, simulation.pose, simulation.wind_speeds, strict=True)
     )
 
 
-def _plants_on_card(simulation: GpuSimulation, level_colours: bool) -> tuple[PosedPlants, ...]:
+def _plants_on_card(simulation: GpuSimulation, looks: Sequence[Ints | None]) -> tuple[PosedPlants, ...]:
     """All plants, without poses and winds."""
-    levels = simulation.levels_now if level_colours else [None] * len(simulation.kinds)
     return tuple(
         PosedPlants(
             link=None,
             position=kind.placements.position,
             yaw=kind.placements.yaw,
             flutter=np.zeros(kind.placements.count, np.float32),
-            extra_look=None if at is None else level_colour(kind.levels, at),
+            extra_look=look,
         )
-        for kind, at in zip(simulation.kinds, levels, strict=True)
+        for kind, look in zip(simulation.kinds, looks, strict=True)
     )
 
 
