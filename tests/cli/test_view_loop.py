@@ -14,6 +14,8 @@ from windswept.render import window
 from windswept.scene.load_scene import build_scene, load_scene
 from windswept.scene.scene import Scene
 
+SIZE = (960, 640)
+
 
 def opened(scene: Scene, gpu: bool, monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """What the window is asked for."""
@@ -29,7 +31,7 @@ def test_a_frame_follows_the_sliders_and_the_camera(gpu: bool, monkeypatch: pyte
     advance = opened(load_scene("hazel", 1), gpu, monkeypatch)[2]
     controls = window.Controls(wind_speed=9.0, wind_heading=1.0)
     camera = Camera((1.0, -9.0, 2.0), (0.0, 0.0, 1.5))
-    frame = advance(0.1, controls, camera)
+    frame = advance(0.1, controls, camera, SIZE)
     assert frame.camera == camera
     assert frame.time == pytest.approx(0.1)
     assert np.hypot(*frame.wind) == pytest.approx(9.0)
@@ -42,8 +44,26 @@ def test_who_stays_at_a_level_for_want_of_room_is_told(monkeypatch: pytest.Monke
     advance = opened(load_scene("hazel", 1), True, monkeypatch)[2]
     monkeypatch.setattr(GpuSimulation, "refused_count", 1234)
     controls = window.Controls()
-    advance(0.1, controls, Camera((1.0, -9.0, 2.0), (0.0, 0.0, 1.5)))
+    advance(0.1, controls, Camera((1.0, -9.0, 2.0), (0.0, 0.0, 1.5)), SIZE)
     assert "1,234 plants without room for another level" in controls.counters
+
+
+@pytest.mark.parametrize("gpu", [False, True])
+def test_levels_are_chosen_for_what_the_window_shows(gpu: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    advance = opened(load_scene("hazel", 1), gpu, monkeypatch)[2]
+    monkeypatch.setattr("windswept.cli.view.COUNT_EVERY", 1)
+
+    def stepped(target: float, size: tuple[int, int]) -> int:
+        """Links once the plant, 24 m away, has gone to its level."""
+        controls = window.Controls()
+        for _ in range(2):
+            advance(1.0, controls, Camera((0.0, -24.0, 1.5), (0.0, target, 1.5)), size)
+        return int(controls.counters.split()[0].replace(",", ""))
+
+    ahead = stepped(0.0, SIZE)
+    assert stepped(-48.0, SIZE) < 0.9 * ahead, "behind the viewer"
+    assert stepped(0.0, (SIZE[0] // 4, SIZE[1] // 4)) < 0.9 * ahead, "in a small window"
+    assert stepped(0.0, SIZE) == ahead
 
 
 @pytest.mark.parametrize("gpu", [False, True])
@@ -52,7 +72,7 @@ def test_underbrush_is_in_the_window(gpu: bool, monkeypatch: pytest.MonkeyPatch)
     camera = {"eye": [0.0, -1.5, 0.6], "target": [0.0, 0.0, 0.3]}
     asked = opened(build_scene("tuft.toml", {"plant": [plant], "camera": camera}), gpu, monkeypatch)
     advance, beds = asked[2], asked[-1]
-    frame = advance(0.1, window.Controls(), Camera((1.0, -2.0, 1.0), (0.0, 0.0, 0.2)))
+    frame = advance(0.1, window.Controls(), Camera((1.0, -2.0, 1.0), (0.0, 0.0, 0.2)), SIZE)
     assert [bed.source for bed in beds] == ["common_poppy"]
     assert (frame.meadow.leans is not None) == gpu
     assert (len(frame.meadow.lanes) == 0) == gpu

@@ -13,7 +13,8 @@ import numpy as np
 from windswept.cli.numbers import SEED
 from windswept.cli.progress import status_line
 from windswept.cli.render import start
-from windswept.levels import Eye
+from windswept.scene.camera import View, view_at
+from windswept.scene.eye_at import eye_of
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Scene
 from windswept.scene.simulation import Simulation
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from windswept.gpu.springs.simulation import GpuSimulation
 
 SIZE = (1280, 720)
-"""Pixels that the window opens with; simulation levels are chosen for it."""
+"""Pixels that the window opens with: underbrush is planted for it, levels are chosen for the size it has."""
 COUNT_EVERY = 15
 """Frames between two counts, for which the card has to be waited for."""
 
@@ -67,7 +68,6 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, mul
     from windswept.render.film import Shot, frame_of
     from windswept.render.staging import LEVEL_LOOKS, LevelLooks, camera_of, ground_grid
     from windswept.render.window import Controls, require_display, show_window
-    from windswept.scene.camera import view_at
 
     require_display()
     with status_line("growing plants") as say:
@@ -77,9 +77,10 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, mul
 
     shot, frames = Shot(level_looks=LevelLooks() if level_colours else None), count()
 
-    def advance(seconds: float, controls: Controls, camera: Camera) -> Frame:
+    def advance(seconds: float, controls: Controls, camera: Camera, size: tuple[int, int]) -> Frame:
         simulation.wind = blown(scene.wind, controls.wind_speed, controls.wind_heading)
-        simulation.eye = Eye(np.array(camera.eye, np.float32), camera.fov_y, SIZE[1])
+        eye, target = np.array([camera.eye, camera.target], np.float32)
+        simulation.eye = eye_of(View(eye, target, camera.fov_y), size[1], size[0] / size[1])
         simulation.advance(seconds)
         if next(frames) % COUNT_EVERY == 0:
             controls.counters = _counters(simulation)

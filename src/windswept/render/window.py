@@ -41,8 +41,9 @@ class Controls:
     """A line of text shown below the sliders; the caller may set it."""
 
 
-Advance = Callable[[float, Controls, Camera], Frame]
-"""Given the seconds since the last frame (0 while paused), the controls and the camera: the frame to draw."""
+Advance = Callable[[float, Controls, Camera, tuple[int, int]], Frame]
+"""Given the seconds since the last frame (0 while paused), the controls, the camera, and width and height of the
+window in pixels: the frame to draw."""
 
 
 def show_window(
@@ -131,7 +132,7 @@ class _LiveView:
         if texture.size[:2] != self._renderer.size:
             self._renderer.resize(texture.size[:2])
         step = 0.0 if self._controls.paused else min(passed, LONGEST_STEP)
-        frame = self._advance(step, self._controls, self._orbit.camera())
+        frame = self._advance(step, self._controls, self._orbit.camera(), self._renderer.size)
         self._drawn = self._renderer.draw_into(texture.create_view(), frame)
         self._frames += 1
         if self._frames % STAGES_EVERY == 0:

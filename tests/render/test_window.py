@@ -1,0 +1,36 @@
+"""What a window tells who steps its scene, without a display."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+from windswept.gpu.culling import Told
+from windswept.gpu.frame import Camera, Frame
+from windswept.render.orbit import orbit_from
+from windswept.render.window import Controls, _LiveView
+
+
+class Paper:
+    """A renderer that draws nothing."""
+
+    size = (64, 48)
+
+    def resize(self, size: tuple[int, int]) -> None:
+        self.size = size
+
+    def draw_into(self, _view: Any, _frame: Frame) -> Told:
+        return Told((0, 0, 0, 0), 0, 0, 0, 0)
+
+
+def test_who_steps_the_scene_learns_the_windows_size_as_it_is_now() -> None:
+    camera, sizes = Camera((0.0, -9.0, 2.0), (0.0, 0.0, 1.5)), []
+
+    def advance(_seconds: float, _controls: Controls, seen_from: Camera, size: tuple[int, int]) -> Frame:
+        sizes.append(size)
+        return Frame((), seen_from)
+
+    window: Any = _LiveView(Paper(), advance, orbit_from(camera), Controls())  # type: ignore[arg-type]
+    for size in ((64, 48), (300, 200)):
+        window.draw(SimpleNamespace(size=(*size, 1), create_view=lambda: None))
+    assert sizes == [(64, 48), (300, 200)]
