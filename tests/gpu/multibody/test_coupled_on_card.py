@@ -159,6 +159,12 @@ def test_calm_air_moves_nothing(trees):
     assert not card.states[0].carried.any()
 
 
+def test_a_scene_without_plants_runs():
+    card = CoupledSimulation(stand_of([], []), [])
+    assert card.advance(0.1).step_count == 12
+    assert (card.link_count, card.states, card.pose) == (0, [], [])
+
+
 def test_what_does_not_fit_is_said(trees):
     scene = stand_of(trees[:1], [64])
     kind = GrownKind(trees[0], build_model(trees[0]), None, scene.placements[0])

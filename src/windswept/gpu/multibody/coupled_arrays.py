@@ -76,9 +76,8 @@ def coupled_arrays(kinds: list[GrownKind], rungs: Rows, limit: int) -> CoupledAr
     firsts = np.cumsum(sizes, axis=1) - sizes
     coupled["rows"] = np.column_stack([np.cumsum(links) - links, *firsts])
     carried, records, slots = (int(rows) for rows in sizes.sum(axis=1))
-    return CoupledArrays(
-        np.concatenate([rod_rows(kind.model) for kind in kinds]), coupled, carried, records, slots
-    )
+    rods = [np.zeros(0, layouts.ROD), *(rod_rows(kind.model) for kind in kinds)]
+    return CoupledArrays(np.concatenate(rods), coupled, carried, records, slots)
 
 
 def rod_rows(model: Model) -> Rows:
