@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 
 from windswept.gpu import layouts
+from windswept.gpu.culling.layouts import DRAWN_KIND
+from windswept.gpu.multibody.layouts import COUPLED
 from windswept.gpu.plant_drawing import LEAF_BATCH, STEM_BATCH
 from windswept.gpu.wiring import SHADER_SETS, shader_module, shader_text
 from windswept.motion.multibody import constants
 from windswept.motion.shapes import MAX_ANGLE
+from windswept.render.staging import LEVEL_LOOKS
 
 WGSL_TYPES = {
     "vec4f": layouts.REALS,
@@ -109,10 +112,39 @@ def test_constants_of_coupled_links_agree_with_the_shader(name):
     assert line.replace("e-09", "e-9") in shader_source("multibody_types")
 
 
+TABLE_LENGTHS = {
+    "rungs": layouts.RUNG_LIMIT,
+    "kinds": layouts.KIND_LIMIT,
+    "coupled": layouts.KIND_LIMIT,
+    "looks": layouts.LOOK_LIMIT,
+}
+
+
 def test_uniform_tables_are_as_long_as_their_layouts_say():
+    checked = set()
     for name, parts in SHADER_SETS.items():
         for part in parts:
-            lengths = dict(re.findall(r"(rungs|kinds): array<\w+, (\d+)>", shader_source(part)))
-            assert lengths.get("rungs", "800") == str(layouts.RUNG_LIMIT), name
-            assert lengths.get("kinds", "64") == str(layouts.KIND_LIMIT), name
-    assert layouts.RUNG_LIMIT * layouts.RUNG.itemsize <= 65536
+            uniforms = re.findall(r"var<uniform> (\w+): array<\w+, (\d+)>", shader_source(part))
+            for table, length in uniforms:
+                if table in TABLE_LENGTHS:
+                    assert int(length) == TABLE_LENGTHS[table], (name, part)
+                    checked.add(table)
+    assert checked == set(TABLE_LENGTHS)
+
+
+@pytest.mark.parametrize(
+    ("length", "layout"),
+    [
+        (layouts.RUNG_LIMIT, layouts.RUNG),
+        (layouts.KIND_LIMIT, layouts.KIND),
+        (layouts.KIND_LIMIT, DRAWN_KIND),
+        (layouts.KIND_LIMIT, COUPLED),
+        (layouts.LOOK_LIMIT, layouts.LOOK),
+    ],
+)
+def test_uniform_tables_fit_every_adapter(length, layout):
+    assert length * layout.itemsize <= 65536
+
+
+def test_the_colours_of_levels_find_room_beside_all_kinds():
+    assert layouts.KIND_LIMIT + len(LEVEL_LOOKS) <= layouts.LOOK_LIMIT

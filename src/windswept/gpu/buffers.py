@@ -18,10 +18,16 @@ UNIFORM_STRIDE = 256
 
 
 def filled(device: Any, rows: NDArray[Any], usage: int = STORAGE) -> Any:
-    """Buffer that holds an array; at least one row long, since a binding may not be empty."""
+    """Buffer that holds an array; at least one row long, since a binding may not be empty.
+
+    Raises:
+        GraphicsError: the device cannot bind so much at once, or has not so much memory.
+    """
     if len(rows) == 0:
         rows = np.zeros((1, *rows.shape[1:]), rows.dtype)
-    return device.create_buffer_with_data(data=np.ascontiguousarray(rows), usage=usage)
+    check_size(rows.nbytes, binding_limit(device))
+    with card_errors("holding the scene"):
+        return device.create_buffer_with_data(data=np.ascontiguousarray(rows), usage=usage)
 
 
 def room(device: Any, layout: np.dtype[Any], rows: int, usage: int = STORAGE) -> Any:
@@ -30,27 +36,63 @@ def room(device: Any, layout: np.dtype[Any], rows: int, usage: int = STORAGE) ->
     Raises:
         GraphicsError: the device cannot bind so much at once, or has not so much memory.
     """
-    check_size(device, rows * layout.itemsize)
-    with card_errors("its buffers"):
+    check_size(rows * layout.itemsize, binding_limit(device))
+    with card_errors("holding the scene"):
         return device.create_buffer(size=max(rows, 1) * layout.itemsize, usage=usage)
 
 
-def check_size(device: Any, size: int) -> None:
-    """Raises GraphicsError where a buffer of ``size`` bytes cannot be bound at once."""
-    limit = device.limits["max-storage-buffer-binding-size"]
+def table(rows: NDArray[Any], length: int, things: str) -> NDArray[Any]:
+    """Rows, and zeros up to the length that a uniform table has in the shaders.
+
+    Args:
+        rows: (n, ...) of the table.
+        length: of the table.
+        things: what the rows stand for, as in "kinds of plants".
+
+    Raises:
+        GraphicsError: there are more rows than that.
+    """
+    check_count(len(rows), length, things)
+    whole = np.zeros((length, *rows.shape[1:]), rows.dtype)
+    whole[: len(rows)] = rows
+    return whole
+
+
+def check_count(count: int, most: int, things: str) -> None:
+    """Raises GraphicsError where there are more things than a table of the shaders holds."""
+    if count > most:
+        raise GraphicsError(f"the card holds up to {most} {things}, and there are {count}: use fewer")
+
+
+def binding_limit(device: Any) -> int:
+    """Bytes of a buffer that the device can bind at once."""
+    return int(device.limits["max-storage-buffer-binding-size"])
+
+
+def check_size(size: int, limit: int) -> None:
+    """Raises GraphicsError where a buffer of ``size`` bytes is larger than it may be."""
     if size > limit:
         raise GraphicsError(
-            f"{size / 1e6:.0f} MB are needed in one buffer and this adapter takes {limit / 1e6:.0f} MB: "
+            f"{size / 1e6:.2f} MB are needed in one buffer, which may have {limit / 1e6:.2f} MB on this card: "
             "place fewer plants"
         )
 
 
 class GrowingBuffer:
-    """Storage for rows of one layout; contents are lost when it grows."""
+    """Storage for rows of one layout; contents are lost when it grows.
 
-    def __init__(self, device: Any, layout: np.dtype[np.void]) -> None:
+    Args:
+        device: the card.
+        layout: of a row.
+        most: bytes that it may have unless more are insisted on; None for what the device can bind.
+    """
+
+    def __init__(self, device: Any, layout: np.dtype[np.void], most: int | None = None) -> None:
         self._device = device
         self.row_bytes = layout.itemsize
+        self._limit = binding_limit(device)
+        self.most_rows = min(most or self._limit, self._limit) // self.row_bytes
+        """How many it should make room for at most."""
         self.buffer: Any = None
         self.reserve(1)
 
@@ -58,14 +100,13 @@ class GrowingBuffer:
         """Make room for this many rows, with a little to spare.
 
         Raises:
-            GraphicsError: the device cannot bind so much at once.
+            GraphicsError: the device cannot bind so much at once, or has not so much memory.
         """
-        if self.buffer is None or self.buffer.size < rows * self.row_bytes:
-            check_size(self._device, rows * self.row_bytes)
-            limit = self._device.limits["max-storage-buffer-binding-size"]
-            size = min(max(rows + rows // 4, 64) * self.row_bytes, limit // self.row_bytes * self.row_bytes)
+        if self.buffer is None or self.rows < rows:
+            check_size(rows * self.row_bytes, self._limit)
+            roomy = max(rows, min(max(rows + rows // 4, 64), self.most_rows))
             with card_errors("the parts of a frame"):
-                self.buffer = self._device.create_buffer(size=size, usage=STORAGE)
+                self.buffer = self._device.create_buffer(size=roomy * self.row_bytes, usage=STORAGE)
 
     @property
     def rows(self) -> int:

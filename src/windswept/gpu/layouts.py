@@ -132,9 +132,9 @@ WORD = np.dtype("<u4")
 
 LANES = 64
 """Placements in one block: LANES of ``motion.wgsl``."""
-KIND_LIMIT, RUNG_LIMIT = 64, 800
+KIND_LIMIT, RUNG_LIMIT = 512, 800
 """Kinds, and simulation levels of all kinds, that the shaders' uniform tables hold."""
 NONE = 0xFFFFFFFF
 """Row number that stands for no row."""
-LOOK_LIMIT = 64
-"""Kinds of plants a renderer can hold: the length of the shaders' ``looks``."""
+LOOK_LIMIT = KIND_LIMIT + 32
+"""Looks that the shaders' uniform table holds: those of all kinds, and others that placements may wear instead."""

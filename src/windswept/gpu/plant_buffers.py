@@ -12,6 +12,7 @@ from windswept.geometry.detail import DetailOrder, DetailRules, detail_order, in
 from windswept.geometry.geometry import Geometry
 from windswept.geometry.leaves import LEAF_SHAPES
 from windswept.gpu import layouts
+from windswept.gpu.buffers import check_count, table
 from windswept.gpu.pose_order import PoseOrder, pose_order
 from windswept.plants.plant import Floats, Look, Plant
 
@@ -54,7 +55,11 @@ def plant_arrays(
         geometries: the drawn form of each.
         looks: one for each kind and then others, at most ``LOOK_LIMIT``.
         rules: what may be spent: decides which poses come first.
+
+    Raises:
+        GraphicsError: there are more kinds or looks than the shaders' tables hold.
     """
+    check_count(len(plants), layouts.KIND_LIMIT, "kinds of plants")
     kinds: list[Kind] = []
     stems = [np.zeros(0, layouts.STEM)]
     pieces = [np.zeros(0, layouts.PIECE)]
@@ -143,12 +148,12 @@ def _leaves(geometry: Geometry, order: DetailOrder, pose: PoseOrder, link_base: 
 
 
 def _looks(looks: list[Look]) -> NDArray[np.void]:
-    rows = np.zeros(layouts.LOOK_LIMIT, layouts.LOOK)
-    for row, look in zip(rows, looks, strict=False):
+    rows = np.zeros(len(looks), layouts.LOOK)
+    for row, look in zip(rows, looks, strict=True):
         row["bark"] = (*look.bark_colour, look.bark_relief)
         row["leaf"] = (*look.leaf_colour, LEAF_SHAPES.index(look.leaf_shape))
         row["back"] = (*look.leaf_back_colour, look.leaf_flutter)
-    return rows
+    return table(rows, layouts.LOOK_LIMIT, "looks of plants")
 
 
 def _ball(geometry: Geometry) -> tuple[NDArray[np.float64], float]:

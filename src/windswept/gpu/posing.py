@@ -18,7 +18,7 @@ from windswept.gpu.wiring import UNIFORM as UNIFORM_BINDING
 STAGES = (("offsets", STEMS), ("sum_shifts", STEMS), ("pose_pieces", PIECES), ("pose_leaves", LEAVES))
 """Entry points and where their workgroups stand in a plan."""
 MOST_BYTES = 1 << 30
-"""Of a buffer that grows with what frames want, whatever the card could bind."""
+"""Of a buffer that grows with what frames want, whatever the card could bind; more only where least detail needs it."""
 Counts = tuple[int, int, int, int]
 """Of link poses, shifted stems, posed pieces and posed leaves."""
 
@@ -45,10 +45,10 @@ class Posing:
         self._leaves = filled(device, plants.leaves)
         self.stems = filled(device, plants.stems)
         self.looks = filled(device, plants.looks, UNIFORM)
-        self.links = GrowingBuffer(device, layouts.LINK_POSE)
-        self.shifts = GrowingBuffer(device, layouts.STEM_SHIFT)
-        self.posed_pieces = GrowingBuffer(device, layouts.POSED_PIECE)
-        self.posed_leaves = GrowingBuffer(device, layouts.POSED_LEAF)
+        self.links = GrowingBuffer(device, layouts.LINK_POSE, MOST_BYTES)
+        self.shifts = GrowingBuffer(device, layouts.STEM_SHIFT, MOST_BYTES)
+        self.posed_pieces = GrowingBuffer(device, layouts.POSED_PIECE, MOST_BYTES)
+        self.posed_leaves = GrowingBuffer(device, layouts.POSED_LEAF, MOST_BYTES)
 
     @property
     def room(self) -> Counts:
@@ -66,16 +66,15 @@ class Posing:
         """Makes room for what a frame poses.
 
         Raises:
-            GraphicsError: the device cannot bind so much at once.
+            GraphicsError: the device cannot bind so much at once, or has not so much memory.
         """
         for store, rows in zip(self._stores, wanted, strict=True):
             store.reserve(rows)
 
     def affordable(self, wanted: Counts) -> Counts:
         """As much of what is wanted as a buffer of this card may hold."""
-        limit = min(self._device.limits["max-storage-buffer-binding-size"], MOST_BYTES)
         links, shifts, pieces, leaves = (
-            min(rows, limit // store.row_bytes) for rows, store in zip(wanted, self._stores, strict=True)
+            min(rows, store.most_rows) for rows, store in zip(wanted, self._stores, strict=True)
         )
         return links, shifts, pieces, leaves
 

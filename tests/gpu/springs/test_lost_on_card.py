@@ -29,8 +29,8 @@ def test_a_card_lost_while_stepping(soft_trees, soft_ladders, monkeypatch):
 
 def test_more_kinds_than_the_shaders_tables_hold(soft_trees, soft_ladders):
     _, card = both(stand_of(soft_trees, [1, 1]), soft_ladders, soft_trees)
-    with pytest.raises(GraphicsError, match="64 kinds"):
-        rung_arrays(card.kinds * 33, 1 << 27)
+    with pytest.raises(GraphicsError, match=f"{layouts.KIND_LIMIT} kinds"):
+        rung_arrays(card.kinds * (layouts.KIND_LIMIT // 2 + 1), 1 << 27)
 
 
 def test_limits_of_the_device_hold_every_buffer(soft_trees, soft_ladders):

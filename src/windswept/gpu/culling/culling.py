@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from windswept.errors import GraphicsError
 from windswept.geometry.detail import DetailRules
 from windswept.gpu import layouts
-from windswept.gpu.buffers import UNIFORM, filled, room
+from windswept.gpu.buffers import UNIFORM, filled, room, table
 from windswept.gpu.culling.layouts import BANDS, CHOICE, CLASSES, GROUP, MESH_LIMIT, NEEDS, SIGHT
 from windswept.gpu.culling.standing_rows import kind_rows, rank_rows, shortening, standing_rows
 from windswept.gpu.draw_list import View
@@ -48,8 +48,8 @@ class Culling:
         self._ranks = filled(device, rank_rows(kinds))
         self._resources: dict[str, Any] = {
             "sight": room(device, SIGHT, 1, UNIFORM),
-            "kinds": filled(device, _table(rows, layouts.KIND_LIMIT), UNIFORM),
-            "meshes": filled(device, _table(plan.meshes.astype(np.uint32), MESH_LIMIT), UNIFORM),
+            "kinds": filled(device, table(rows, layouts.KIND_LIMIT, "kinds of plants"), UNIFORM),
+            "meshes": filled(device, table(plan.meshes.astype(np.uint32), MESH_LIMIT, "meshes"), UNIFORM),
             "prefixes": filled(device, prefixes),
             "bands": room(device, layouts.WORD, BAND_COLUMNS * BANDS),
             "plan": plan.words,
@@ -161,10 +161,3 @@ class Culling:
 
 def _is(one: Any, other: Any) -> bool:
     return one is other
-
-
-def _table(rows: NDArray[Any], length: int) -> NDArray[Any]:
-    """Rows, and zeros up to the length that a uniform table has in the shaders."""
-    whole = np.zeros((length, *rows.shape[1:]), rows.dtype)
-    whole[: len(rows)] = rows
-    return whole

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import wgpu
 
-from windswept.gpu.buffers import UNIFORM_STRIDE, check_size, filled, room
+from windswept.gpu.buffers import UNIFORM_STRIDE, filled, room
 from windswept.gpu.frame import MeadowMotion
 from windswept.gpu.meadow.blade_choice import MOST_DEPTH, BladeChoice
 from windswept.gpu.meadow.blade_list import BladeRules, Sharpness
@@ -61,7 +61,6 @@ class MeadowDrawing:
     ) -> None:
         self._device = device
         self.rows: MeadowRows = meadow_rows(beds)
-        check_size(device, self.rows.blades.nbytes)
         self._pose_layout = buffers_layout(device, COMPUTE, *[READ] * 6, WRITE, DYNAMIC_UNIFORM)
         self._draw_layout = buffers_layout(device, DRAWING, READ, DYNAMIC_UNIFORM)
         constants = {"LAST_NORM": LAST_NORM}

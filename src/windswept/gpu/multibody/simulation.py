@@ -6,13 +6,12 @@ from dataclasses import replace
 from typing import Any
 
 from windswept.gpu import layouts
-from windswept.gpu.buffers import UNIFORM, filled, room
+from windswept.gpu.buffers import UNIFORM, filled, room, table
 from windswept.gpu.device import shared_device
 from windswept.gpu.multibody.coupled_arrays import coupled_arrays
 from windswept.gpu.multibody.coupled_rows import card_rows, state_of_rows
 from windswept.gpu.multibody.layouts import CARRIED
 from windswept.gpu.multibody.walk import CoupledWalk
-from windswept.gpu.springs.card_state import table
 from windswept.gpu.springs.kinds import GrownKind
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.gpu.springs.walk import Walk
@@ -79,7 +78,7 @@ class CoupledSimulation(GpuSimulation):
         device: Any = self._device
         self.card.resources |= {
             "rods": filled(device, arrays.rods),
-            "coupled": filled(device, table(arrays.coupled, layouts.KIND_LIMIT), UNIFORM),
+            "coupled": filled(device, table(arrays.coupled, layouts.KIND_LIMIT, "kinds of plants"), UNIFORM),
             "carried": room(device, layouts.ROW, arrays.carried_rows),
             "records": room(device, layouts.ROW, arrays.record_rows),
             "slots": room(device, layouts.ROW, arrays.slot_rows),

@@ -8,7 +8,7 @@ const BATCH = 32u;
 const TAU = 6.283185307;
 
 @group(1) @binding(0) var<storage, read> stems: array<Stem>;
-@group(1) @binding(2) var<uniform> looks: array<Look, 64>;
+@group(1) @binding(2) var<uniform> looks: array<Look, 544>;
 @group(1) @binding(3) var<uniform> batch: Batch;
 
 struct Surface {

@@ -3,7 +3,7 @@
 
 override LONGEST: u32 = 1u;   // links of the largest plant
 
-@group(0) @binding(0) var<uniform> kinds: array<Kind, 64>;
+@group(0) @binding(0) var<uniform> kinds: array<Kind, 512>;
 @group(0) @binding(1) var<uniform> rungs: array<Rung, 800>;
 @group(0) @binding(2) var<storage, read> listeners: array<vec4u>;
 @group(0) @binding(3) var<storage, read> shapes: array<Shape>;

@@ -3,7 +3,7 @@
 
 override REGISTER: u32 = 8u;   // placements that the CPU steps at once: idle lanes of finer levels are filled
 
-@group(0) @binding(0) var<uniform> kinds: array<Kind, 64>;
+@group(0) @binding(0) var<uniform> kinds: array<Kind, 512>;
 @group(0) @binding(1) var<uniform> rungs: array<Rung, 800>;
 @group(0) @binding(2) var<storage, read> rooted: array<Rooted>;
 @group(0) @binding(3) var<storage, read_write> motions: array<Motion>;

@@ -8,7 +8,7 @@ const BANDS_PER_OCTAVE = 10.0;
 const COLUMNS = 5u;               // of `bands`: those of Sight.room, and placements
 
 @group(0) @binding(0) var<uniform> sight: Sight;
-@group(0) @binding(1) var<uniform> kinds: array<DrawnKind, 64>;
+@group(0) @binding(1) var<uniform> kinds: array<DrawnKind, 512>;
 @group(0) @binding(2) var<storage, read> standing: array<Standing>;
 @group(0) @binding(3) var<storage, read> prefixes: array<vec4u>;   // of each piece and leaf: bits of its size; reach
 @group(0) @binding(4) var<storage, read_write> choices: array<Choice>;

@@ -13,7 +13,7 @@ const MOST = 65535u;   // workgroups along x
 const STRIDE = 16u;    // rows of `batches` from one draw to the next
 
 @group(0) @binding(1) var<uniform> sight: Sight;
-@group(0) @binding(2) var<uniform> kinds: array<DrawnKind, 64>;
+@group(0) @binding(2) var<uniform> kinds: array<DrawnKind, 512>;
 @group(0) @binding(3) var<uniform> meshes: array<vec4u, 16>;   // indices of one item; of a batch; one of how many; range
 @group(0) @binding(4) var<storage, read> standing: array<Standing>;
 @group(0) @binding(5) var<storage, read> choices: array<Choice>;

@@ -13,7 +13,7 @@ const CHUNK = 64u;
 @group(1) @binding(5) var<storage, read_write> shifts: array<StemShift>;
 @group(1) @binding(6) var<storage, read_write> posed_pieces: array<PosedPiece>;
 @group(1) @binding(7) var<storage, read_write> posed_leaves: array<PosedLeaf>;
-@group(1) @binding(8) var<uniform> looks: array<Look, 64>;
+@group(1) @binding(8) var<uniform> looks: array<Look, 544>;
 @group(1) @binding(9) var<uniform> listed: Listed;
 
 // Row of a placement, and the rank of what an invocation takes of it.

@@ -2,7 +2,7 @@
 // are: Gauss and Newton's method of levels/carry_over.py. Set: motion + rotation + joints + fit_groups.
 // A workgroup takes a group of a placement; the sums over its joints are taken by all its lanes.
 
-@group(0) @binding(0) var<uniform> kinds: array<Kind, 64>;
+@group(0) @binding(0) var<uniform> kinds: array<Kind, 512>;
 @group(0) @binding(1) var<uniform> rungs: array<Rung, 800>;
 @group(0) @binding(2) var<storage, read> listeners: array<vec4u>;
 @group(0) @binding(3) var<storage, read> shapes: array<Shape>;

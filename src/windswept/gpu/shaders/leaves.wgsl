@@ -6,7 +6,7 @@ const BATCH = 64u;
 
 @group(1) @binding(0) var<storage, read> blade: array<vec4f>;  // position and normal of a unit leaf, shape by shape
 @group(1) @binding(1) var<storage, read> posed_leaves: array<PosedLeaf>;
-@group(1) @binding(2) var<uniform> looks: array<Look, 64>;
+@group(1) @binding(2) var<uniform> looks: array<Look, 544>;
 @group(1) @binding(3) var<uniform> batch: Batch;
 
 struct LeafVertex {

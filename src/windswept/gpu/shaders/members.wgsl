@@ -11,7 +11,7 @@ struct Tally {
     unused: u32,
 }
 
-@group(0) @binding(0) var<uniform> kinds: array<Kind, 64>;
+@group(0) @binding(0) var<uniform> kinds: array<Kind, 512>;
 @group(0) @binding(1) var<uniform> rungs: array<Rung, 800>;
 @group(0) @binding(2) var<storage, read_write> motions: array<Motion>;
 @group(0) @binding(3) var<storage, read_write> members: array<u32>;

@@ -7,7 +7,7 @@
 // is a dispatch of its own: a software driver leaves the loops of a shader after 65,535 turns in all.
 
 @group(0) @binding(0) var<uniform> rungs: array<Rung, 800>;
-@group(0) @binding(1) var<uniform> coupled: array<Coupled, 64>;   // by kind: its finest rung
+@group(0) @binding(1) var<uniform> coupled: array<Coupled, 512>;   // by kind: its finest rung
 @group(0) @binding(2) var<storage, read> blocks: array<vec4u>;
 @group(0) @binding(3) var<storage, read> rods: array<Rod>;
 @group(0) @binding(4) var<storage, read> wind: array<vec4f>;

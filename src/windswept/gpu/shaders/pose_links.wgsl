@@ -1,7 +1,7 @@
 // From joint angles to where every link is, in the rows that curves.wgsl reads; motion/pose_links.py is the same on the
 // CPU. Set: motion + rotation + joints + pose_links.
 
-@group(0) @binding(0) var<uniform> kinds: array<Kind, 64>;
+@group(0) @binding(0) var<uniform> kinds: array<Kind, 512>;
 @group(0) @binding(1) var<uniform> rungs: array<Rung, 800>;
 @group(0) @binding(2) var<storage, read> seats: array<vec4u>;   // how many follow; placement, first pose, poses
 @group(0) @binding(3) var<storage, read> ranks: array<vec2u>;   // of each kind: link of each rank, rank of each link

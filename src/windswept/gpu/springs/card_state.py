@@ -9,7 +9,7 @@ import wgpu
 from numpy.typing import NDArray
 
 from windswept.gpu import layouts
-from windswept.gpu.buffers import STORAGE, UNIFORM, GrowingBuffer, filled, room
+from windswept.gpu.buffers import STORAGE, UNIFORM, GrowingBuffer, filled, room, table
 from windswept.gpu.springs.air import AirRows
 from windswept.gpu.springs.rung_arrays import RungArrays
 from windswept.gpu.springs.seats import Seats
@@ -40,8 +40,8 @@ class CardState:
         self._waves, self._gusts = GrowingBuffer(device, layouts.WAVE), GrowingBuffer(device, layouts.GUST)
         placements, rungs = len(arrays.rooted), len(arrays.rungs)
         self.resources: dict[str, Any] = {
-            "kinds": filled(device, table(arrays.kinds, layouts.KIND_LIMIT), UNIFORM),
-            "rungs": filled(device, table(arrays.rungs, layouts.RUNG_LIMIT), UNIFORM),
+            "kinds": filled(device, table(arrays.kinds, layouts.KIND_LIMIT, "kinds of plants"), UNIFORM),
+            "rungs": filled(device, table(arrays.rungs, layouts.RUNG_LIMIT, "simulation levels"), UNIFORM),
             "links": filled(device, arrays.links),
             "groups": filled(device, arrays.groups),
             "probes": filled(device, arrays.probes),
@@ -104,13 +104,6 @@ class CardState:
         buffer = self.resources[name]
         size = buffer.size - first * row if count is None else count * row
         return np.frombuffer(self._device.queue.read_buffer(buffer, first * row, size), layout).copy()
-
-
-def table(rows: NDArray[np.void], length: int) -> NDArray[np.void]:
-    """Rows, and zeros up to the length that a uniform table has in the shaders."""
-    whole = np.zeros(length, rows.dtype)
-    whole[: len(rows)] = rows
-    return whole
 
 
 def _heights_texture(device: Any, heights: Floats) -> Any:
