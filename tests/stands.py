@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from windswept.gpu import layouts
-from windswept.gpu.springs.kinds import kinds_of
+from windswept.gpu.springs.kinds import GrownKind
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.levels import Ladder
 from windswept.plants.plant import Material, Plant
@@ -52,6 +52,11 @@ def both(scene: Scene, ladders: list[Ladder], plants: list[Plant]) -> tuple[Simu
         simulation.field = start_field(scene.field, scene.wind)
     simulation._sample_winds()
     return simulation, GpuSimulation(scene, kinds_of(simulation), picture_height=1080)
+
+
+def kinds_of(simulation: Simulation) -> list[GrownKind]:
+    """The kinds of a simulation on the CPU, with the ladders that it has built."""
+    return [GrownKind(kind.plant, kind.model, kind.ladder, kind.placements) for kind in simulation.kinds]
 
 
 def only(ladder: Ladder, place: int) -> Ladder:

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from handmade import random_tree
-from stands import SOFT, both, stand_of
+from stands import SOFT, both, kinds_of, stand_of
 from windswept.geometry.detail import DetailRules
 from windswept.gpu.meadow.blade_list import BladeRules
-from windswept.gpu.springs.kinds import kinds_of
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.levels import Eye, build_ladder, simplify
 from windswept.motion import build_model

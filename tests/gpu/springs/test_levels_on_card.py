@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stands import both, gaps, stand_of
+from stands import both, gaps, kinds_of, stand_of
 from windswept.errors import GraphicsError
 from windswept.gpu import layouts
-from windswept.gpu.springs.kinds import kinds_of
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.levels import Eye, outside_view
 

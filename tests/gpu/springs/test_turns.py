@@ -7,12 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from stands import both, gaps, stand_of
+from stands import both, gaps, kinds_of, stand_of
 from windswept.errors import GraphicsError
 from windswept.gpu import layouts
 from windswept.gpu.springs import simulation as simulation_module
 from windswept.gpu.springs import walk
-from windswept.gpu.springs.kinds import kinds_of
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.gpu.springs.turns import check_walked_whole, links_in_turns, steps_in_turns
 from windswept.scene.simulation import Simulation

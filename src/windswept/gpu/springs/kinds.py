@@ -12,7 +12,6 @@ from windswept.motion import Level, Model, build_model, finest_level
 from windswept.plants.plant import Plant
 from windswept.scene.grow_kinds import grow_kinds
 from windswept.scene.scene import Placements, Scene
-from windswept.scene.simulation import Simulation
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +51,3 @@ def grown_kinds(
         ladder = measured_ladder(build_ladder(simplify(model))) if levels else None
         kinds.append(GrownKind(plant, model, ladder, placements))
     return kinds
-
-
-def kinds_of(simulation: Simulation) -> list[GrownKind]:
-    """The kinds of a simulation on the CPU, with the ladders that it has built."""
-    return [GrownKind(kind.plant, kind.model, kind.ladder, kind.placements) for kind in simulation.kinds]
