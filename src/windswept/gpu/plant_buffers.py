@@ -24,10 +24,8 @@ class Kind:
     order: DetailOrder
     pose: PoseOrder
     stem_first: int
-    stem_count: int
     piece_first: int
     leaf_first: int
-    link_count: int
     centre: NDArray[np.float64]
     """(3,) middle of the plant at rest, m."""
     radius: float
@@ -72,19 +70,7 @@ def plant_arrays(
         pieces.append(_pieces(geometry, order, pose, plant.link_base))
         leaves.append(_leaves(geometry, order, pose, plant.link_base))
         centre, radius = _ball(geometry)
-        kinds.append(
-            Kind(
-                order,
-                pose,
-                stem_first,
-                geometry.stem_count,
-                piece_first,
-                leaf_first,
-                plant.link_count,
-                centre,
-                radius,
-            )
-        )
+        kinds.append(Kind(order, pose, stem_first, piece_first, leaf_first, centre, radius))
         stem_first += geometry.stem_count
         piece_first += geometry.piece_count
         leaf_first += in_runs(geometry.leaf_count)
