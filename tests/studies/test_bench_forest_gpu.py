@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import wgpu
 
 from handmade import random_tree
 from windswept.geometry.detail import SOFTWARE_RULES
@@ -38,6 +39,15 @@ def test_everything_is_measured(walk):
     if walk.simulation.stage_milliseconds:
         stages = {"levels", "wind", "simulate", "pose", "cull", "curves", "shadows", "picture"}
         assert {f"{stage}.ms" for stage in stages} <= set(named)
+
+
+def test_every_buffer_is_counted_once(walk):
+    figures = forest_figures(walk, frames=1, repeats=1)
+    card, renderer = walk.simulation.card, walk.renderer
+    lent = {id(buffer) for buffer in card.resources.values()}
+    chosen = [renderer.culling._ranks, *renderer.culling._resources.values()]
+    own = sum(b.size for b in chosen if isinstance(b, wgpu.GPUBuffer) and id(b) not in lent)
+    assert figures[f"gpu.forest.{PLACEMENTS}.bytes"] == card.bytes + renderer.posing.bytes + own
 
 
 def test_those_in_sight_are_drawn_and_no_more_of_them_is_posed_than_that(walk):

@@ -1,4 +1,4 @@
-"""Tally: what was drawn and what lacked room, told some frames later so that nobody waits."""
+"""Tally: what was drawn and what lacked room, told some frames later; a card that keeps up is not waited for."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 from windswept.gpu.draw_list import DrawList
 from windswept.gpu.draw_plan import TALLY, DrawPlan
+from windswept.gpu.failures import card_errors
 from windswept.gpu.posing import Counts
 
 LATE = 4
-"""Frames after which a card has surely finished one."""
+"""Frames after which one is looked at. A card that has not finished it by then is waited for: this keeps the CPU less
+than twice so many frames ahead of a slow card."""
 _WORDS = 9
 
 
@@ -38,6 +40,9 @@ class Tally:
     Args:
         device: the card.
         plan: whose tally it is.
+
+    Raises:
+        GraphicsError: the card was lost, in every method.
     """
 
     def __init__(self, device: Any, plan: DrawPlan) -> None:
@@ -52,13 +57,15 @@ class Tally:
         if self._coming is None:
             encoder.copy_buffer_to_buffer(self._plan.words, 4 * TALLY, self._aside, 0, 4 * _WORDS)
 
+    @card_errors("telling what was drawn")
     def submitted(self) -> None:
         """Asks for the copy that was submitted."""
         if self._coming is None:
             self._coming, self._age = self._aside.map_async(wgpu.MapMode.READ), 0
 
+    @card_errors("telling what was drawn")
     def late(self, shortened: int) -> Told | None:
-        """What came since the last call, LATE calls after it was asked for.
+        """What was asked for LATE calls ago; None in between. Waits where the card is farther behind than that.
 
         Args:
             shortened: bits by which needs were shortened.
@@ -72,6 +79,7 @@ class Tally:
         self._coming = None
         return _told(words, shortened)
 
+    @card_errors("telling what was drawn")
     def now(self, shortened: int) -> Told:
         """What became of the last frame; waits for it."""
         data = self._device.queue.read_buffer(self._plan.words, 4 * TALLY, 4 * _WORDS)
