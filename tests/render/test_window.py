@@ -30,7 +30,7 @@ def test_who_steps_the_scene_learns_the_windows_size_as_it_is_now() -> None:
         sizes.append(size)
         return Frame((), seen_from)
 
-    window: Any = _LiveView(Paper(), advance, orbit_from(camera), Controls())  # type: ignore[arg-type]
+    window: Any = _LiveView(Paper(), advance, orbit_from(camera), Controls())
     for size in ((64, 48), (300, 200)):
         window.draw(SimpleNamespace(size=(*size, 1), create_view=lambda: None))
     assert sizes == [(64, 48), (300, 200)]
