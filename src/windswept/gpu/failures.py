@@ -11,6 +11,8 @@ from windswept.errors import GraphicsError
 from windswept.gpu.device import shared_device
 
 MEND = "simulate and pose on the CPU instead, or place fewer plants"
+LOSS_SIGNS = ("device is lost", "Could not map buffer")
+"""What wgpu says of a call to a lost device, and of a buffer that was to be read when it was lost."""
 
 
 @contextmanager
@@ -26,8 +28,8 @@ def card_errors(doing: str) -> Iterator[None]:
         yield
     except wgpu.GPUOutOfMemoryError as error:
         raise GraphicsError(f"the graphics card has too little memory for {doing}: {MEND}") from error
-    except wgpu.GPUError as error:
-        if "device is lost" not in str(error):
+    except (wgpu.GPUError, RuntimeError) as error:
+        if not any(sign in str(error) for sign in LOSS_SIGNS):
             raise
         shared_device.cache_clear()
         raise GraphicsError(f"the graphics card was lost while {doing}: {MEND}") from error

@@ -20,6 +20,7 @@ from windswept.gpu.daylight import EXTINCTION, daylight
 from windswept.gpu.device import is_software, shared_device
 from windswept.gpu.draw_list import DrawList, View, draw_list
 from windswept.gpu.draw_plan import DrawPlan
+from windswept.gpu.failures import card_errors
 from windswept.gpu.frame import FLAT_GROUND, CardMotion, Frame, Ground
 from windswept.gpu.lighting import SHADOW_TEXELS, Lighting
 from windswept.gpu.matrices import camera_matrix, frustum_planes, shadow_ball, sun_matrix
@@ -83,9 +84,10 @@ class Renderer:
         blade_rules: what may be spent on them; by default what suits the device.
 
     Raises:
-        GraphicsError: there is no graphics adapter.
+        GraphicsError: there is no graphics adapter, or it has too little room. So do all methods where it is lost.
     """
 
+    @card_errors("drawing pictures")
     def __init__(
         self,
         plants: list[Plant],
@@ -132,6 +134,7 @@ class Renderer:
         self.beside: list[Drawing] = [self._balls]
         self.resize(size)
 
+    @card_errors("drawing pictures")
     def resize(self, size: tuple[int, int]) -> None:
         """Draw pictures of another width and height, pixels, from now on."""
         self.size = size
@@ -149,6 +152,7 @@ class Renderer:
         self._depth = attachment(DEPTH_FORMAT, SAMPLES).create_view()
         self._picture = attachment(self._colour_format, 1, wgpu.TextureUsage.COPY_SRC)
 
+    @card_errors("drawing pictures")
     def draw(self, frame: Frame) -> NDArray[np.uint8]:
         """(height, width, 4) sRGB picture with alpha 255."""
         self.draw_into(self._picture.create_view(), frame)
@@ -162,10 +166,12 @@ class Renderer:
         )
         return np.frombuffer(data, np.uint8).reshape(height, width, 4)
 
+    @card_errors("drawing pictures")
     def draw_aside(self, frame: Frame) -> Told:
         """Draw a frame as ``draw_into`` does, into a picture that nobody reads."""
         return self.draw_into(self._picture.create_view(), frame)
 
+    @card_errors("drawing pictures")
     def draw_into(self, view: Any, frame: Frame) -> Told:
         """Draw a frame into a texture view of this renderer's size and format.
 

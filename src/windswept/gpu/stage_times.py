@@ -9,6 +9,7 @@ import wgpu
 from wgpu.backends.wgpu_native import lib
 
 from windswept.gpu.device import TIMESTAMPS
+from windswept.gpu.failures import card_errors
 
 
 class StageTimes:
@@ -44,8 +45,13 @@ class StageTimes:
             }
         }
 
+    @card_errors("timing its stages")
     def read(self) -> dict[str, float]:
-        """Milliseconds that each stage took when it last ran; waits for the card, so not for every frame."""
+        """Milliseconds that each stage took when it last ran; waits for the card, so not for every frame.
+
+        Raises:
+            GraphicsError: the card was lost.
+        """
         if not self._recorded:
             return {}
         encoder = self._device.create_command_encoder()

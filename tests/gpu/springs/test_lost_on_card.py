@@ -25,6 +25,11 @@ def test_a_card_lost_while_stepping(soft_trees, soft_ladders, monkeypatch):
         card.advance(0.1)
     with pytest.raises(GraphicsError, match="lost while posing plants"):
         card.motion()
+    for told in ("wind_speeds", "levels_now", "placements_by_level", "stepped_count", "refused_count"):
+        with pytest.raises(GraphicsError, match="lost while reading motion back"):
+            getattr(card, told)
+    with pytest.raises(GraphicsError, match="lost while posing plants"):
+        assert card.pose
 
 
 def test_more_kinds_than_the_shaders_tables_hold(soft_trees, soft_ladders):

@@ -121,6 +121,7 @@ class Leaning:
             share.bytes for share in self._shares
         )
 
+    @card_errors("stepping blades")
     def write_air(self, *fields: PackedField) -> None:
         """Takes the air that blades feel from now on, in the order of ``airs``.
 
@@ -129,7 +130,7 @@ class Leaning:
 
         Raises:
             ValueError: more than AIR_LIMIT fields.
-            GraphicsError: the card has too little memory.
+            GraphicsError: the card has too little memory, or was lost.
         """
         if len(fields) > AIR_LIMIT:
             raise ValueError(f"{len(fields)} fields of air: at most {AIR_LIMIT} blow at one time")
@@ -159,11 +160,13 @@ class Leaning:
             self._device.queue.submit([encoder.finish()])
         self.step_count += count
 
+    @card_errors("taking leans over")
     def write(self, states: Sequence[BladeState]) -> None:
         """Goes on from states of all sets."""
         for first, state in zip(self._edges, states, strict=False):
             self._device.queue.write_buffer(self.leans, 4 * int(first), np.ascontiguousarray(state.lanes))
 
+    @card_errors("stepping blades")
     def wait(self) -> None:
         """Returns when the card has done everything that it was told."""
         self._device.queue.read_buffer(self._resources["clamped"])
@@ -181,6 +184,7 @@ class Leaning:
         ]
 
     @property
+    @card_errors("reading leans")
     def clamped_count(self) -> int:
         """As of ``BladeState``, over all sets, read back."""
         return int(np.frombuffer(self._device.queue.read_buffer(self._resources["clamped"]), np.uint32)[0])

@@ -8,6 +8,7 @@ from typing import Any
 from windswept.gpu import layouts
 from windswept.gpu.buffers import UNIFORM, filled, room, table
 from windswept.gpu.device import shared_device
+from windswept.gpu.failures import card_errors
 from windswept.gpu.multibody.coupled_arrays import coupled_arrays
 from windswept.gpu.multibody.coupled_rows import card_rows, state_of_rows
 from windswept.gpu.multibody.layouts import CARRIED
@@ -43,6 +44,7 @@ class CoupledSimulation(GpuSimulation):
         # Every walk of a step is a dispatch of its own.
         self.steps_at_once = 1
 
+    @card_errors("taking motion over")
     def put(self, states: list[CoupledState]) -> None:
         """Lets every placement go on from a state of `multibody`, kind by kind."""
         queue, resources = self._device.queue, self.card.resources

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from windswept.gpu import layouts
 from windswept.gpu.buffers import STORAGE, UNIFORM, GrowingBuffer, filled, room, table
+from windswept.gpu.failures import card_errors
 from windswept.gpu.springs.air import AirRows
 from windswept.gpu.springs.rung_arrays import RungArrays
 from windswept.gpu.springs.seats import Seats
@@ -98,8 +99,13 @@ class CardState:
         self.resources["waves"], self.resources["gusts"] = after
         return before != after
 
+    @card_errors("reading motion back")
     def read(self, name: str, layout: np.dtype[Any] | str, first: int = 0, count: int | None = None) -> Any:
-        """Rows of a buffer, read back; waits for the card, so not for every frame."""
+        """Rows of a buffer, read back; waits for the card, so not for every frame.
+
+        Raises:
+            GraphicsError: the card was lost.
+        """
         row = np.dtype(layout).itemsize
         buffer = self.resources[name]
         size = buffer.size - first * row if count is None else count * row
