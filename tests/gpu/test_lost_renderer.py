@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from functools import cache
 
+import numpy as np
 import pytest
+import wgpu
 
 from windswept.errors import GraphicsError
 from windswept.gpu import device as device_module
@@ -14,13 +16,13 @@ from windswept.gpu.renderer import Renderer
 
 SIZE = (32, 32)
 CALLS = {
-    "draw": lambda lost, frame, view: lost.draw(frame),
-    "draw_aside": lambda lost, frame, view: lost.draw_aside(frame),
-    "draw_into": lambda lost, frame, view: lost.draw_into(view, frame),
-    "resize": lambda lost, frame, view: lost.resize((16, 16)),
-    "told_now": lambda lost, frame, view: lost.told_now,
-    "submitted": lambda lost, frame, view: lost._tally.submitted(),
-    "stage_milliseconds": lambda lost, frame, view: lost.stage_milliseconds,
+    "draw": lambda lost, frame, texture: lost.draw(frame),
+    "draw_aside": lambda lost, frame, texture: lost.draw_aside(frame),
+    "copy_into": lambda lost, frame, texture: lost.copy_into(texture),
+    "resize": lambda lost, frame, texture: lost.resize((16, 16)),
+    "told_now": lambda lost, frame, texture: lost.told_now,
+    "submitted": lambda lost, frame, texture: lost._tally.submitted(),
+    "stage_milliseconds": lambda lost, frame, texture: lost.stage_milliseconds,
 }
 
 
@@ -33,16 +35,33 @@ def devices(monkeypatch):
     return own
 
 
+def window_texture(device, size=SIZE):
+    usage = wgpu.TextureUsage.COPY_DST | wgpu.TextureUsage.COPY_SRC
+    return device.create_texture(size=(*size, 1), format=renderer.PICTURE_FORMAT, usage=usage)
+
+
+def test_a_window_shows_what_was_drawn_as_far_as_it_reaches(stand, device):
+    drawing = Renderer(stand.plants, stand.geometries, size=SIZE)
+    expected = drawing.draw(stand.frame())
+    width, height = SIZE[0] + 16, SIZE[1] - 8
+    window = window_texture(device, (width, height))
+    drawing.copy_into(window)
+    shown = device.queue.read_texture({"texture": window}, {"bytes_per_row": 4 * width}, (width, height, 1))
+    shown = np.frombuffer(shown, np.uint8).reshape(height, width, 4)
+    assert (shown[:, : SIZE[0]] == expected[:height]).all()
+    assert not shown[:, SIZE[0] :].any()
+
+
 @pytest.mark.parametrize("call", CALLS)
 def test_every_call_says_that_the_card_was_lost(stand, devices, call):
     lost = Renderer(stand.plants, stand.geometries, size=SIZE)
     lost.draw(stand.frame())
-    view = lost._picture.create_view()
+    texture = window_texture(devices())
     devices().destroy()
     if call == "stage_milliseconds" and not lost._times.works:
         pytest.skip("this card has no clock")
     with pytest.raises(GraphicsError, match="the graphics card was lost while"):
-        CALLS[call](lost, stand.frame(), view)
+        CALLS[call](lost, stand.frame(), texture)
 
 
 def test_the_next_renderer_has_a_new_card(stand, devices):

@@ -23,7 +23,7 @@ def listed(stand, frame):
 
 
 def drawn(stand, frame):
-    told = stand.renderer.draw_into(stand.renderer._picture.create_view(), frame)
+    told = stand.renderer.draw_aside(frame)
     wanted = listed(stand, frame)
     assert (told.pieces, told.leaves) == (wanted.piece_count, wanted.leaf_count)
     return wanted

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 from typing import Any
 
 from windswept.gpu.culling import Told
@@ -19,7 +18,7 @@ class Paper:
     def resize(self, size: tuple[int, int]) -> None:
         self.size = size
 
-    def draw_into(self, _view: Any, _frame: Frame) -> Told:
+    def draw_aside(self, _frame: Frame) -> Told:
         return Told((0, 0, 0, 0), 0, 0, 0, 0)
 
 
@@ -32,5 +31,5 @@ def test_who_steps_the_scene_learns_the_windows_size_as_it_is_now() -> None:
 
     window: Any = _LiveView(Paper(), advance, orbit_from(camera), Controls())
     for size in ((64, 48), (300, 200)):
-        window.draw(SimpleNamespace(size=(*size, 1), create_view=lambda: None))
+        window.draw(size)
     assert sizes == [(64, 48), (300, 200)]

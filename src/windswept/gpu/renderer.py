@@ -151,11 +151,12 @@ class Renderer:
         self._colour = attachment(self._colour_format, SAMPLES).create_view()
         self._depth = attachment(DEPTH_FORMAT, SAMPLES).create_view()
         self._picture = attachment(self._colour_format, 1, wgpu.TextureUsage.COPY_SRC)
+        self._picture_view = self._picture.create_view()
 
     @card_errors("drawing pictures")
     def draw(self, frame: Frame) -> NDArray[np.uint8]:
         """(height, width, 4) sRGB picture with alpha 255."""
-        self.draw_into(self._picture.create_view(), frame)
+        self.draw_aside(frame)
         if frame.motion is not None and self._has_grown(self.told_now):
             return self.draw(frame)
         width, height = self.size
@@ -168,12 +169,7 @@ class Renderer:
 
     @card_errors("drawing pictures")
     def draw_aside(self, frame: Frame) -> Told:
-        """Draw a frame as ``draw_into`` does, into a picture that nobody reads."""
-        return self.draw_into(self._picture.create_view(), frame)
-
-    @card_errors("drawing pictures")
-    def draw_into(self, view: Any, frame: Frame) -> Told:
-        """Draw a frame into a texture view of this renderer's size and format.
+        """Draw a frame and leave the picture on the card.
 
         Returns:
             What was drawn: the counts that a window shows; of a frame whose motion is on the card, a few frames late.
@@ -198,11 +194,19 @@ class Renderer:
         self._encode_shadows(encoder)
         if self.meadow is not None:
             self._encode_blades(encoder, self.meadow)
-        self._encode_picture(encoder, view)
+        self._encode_picture(encoder)
         self._device.queue.submit([encoder.finish()])
         if frame.motion is not None:
             self._tally.submitted()
         return self._told
+
+    @card_errors("drawing pictures")
+    def copy_into(self, texture: Any) -> None:
+        """Copy the picture that was drawn last into a texture of this renderer's format, as far as both reach."""
+        size = *map(min, self.size, texture.size[:2]), 1
+        encoder = self._device.create_command_encoder()
+        encoder.copy_texture_to_texture({"texture": self._picture}, {"texture": texture}, size)
+        self._device.queue.submit([encoder.finish()])
 
     def _list_plants(self, frame: Frame, view: View) -> None:
         """Chooses what is drawn here, and sends it with its poses."""
@@ -295,12 +299,12 @@ class Renderer:
         meadow.encode(compute_pass)
         compute_pass.end()
 
-    def _encode_picture(self, encoder: Any, view: Any) -> None:
+    def _encode_picture(self, encoder: Any) -> None:
         render_pass = encoder.begin_render_pass(
             color_attachments=[
                 {
                     "view": self._colour,
-                    "resolve_target": view,
+                    "resolve_target": self._picture_view,
                     "clear_value": (0.0, 0.0, 0.0, 1.0),
                     "load_op": "clear",
                     "store_op": "discard",

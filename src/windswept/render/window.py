@@ -8,10 +8,13 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
+import wgpu
+
 from windswept.errors import GraphicsError
 from windswept.geometry.geometry import Geometry
 from windswept.gpu.culling import Told
 from windswept.gpu.device import shared_device
+from windswept.gpu.failures import card_errors
 from windswept.gpu.frame import FLAT_GROUND, Camera, Frame, Ground
 from windswept.gpu.renderer import Renderer
 from windswept.plants.plant import Look, Plant
@@ -71,7 +74,7 @@ def show_window(
         beds: blades of underbrush.
 
     Raises:
-        GraphicsError: no display, no adapter, or the ``view`` extra is not installed.
+        GraphicsError: no display, no adapter, the ``view`` extra is not installed, or the card was lost.
     """
     require_display()
     try:
@@ -83,7 +86,8 @@ def show_window(
     canvas = RenderCanvas(title=title, size=(1280, 720), update_mode="continuous", max_fps=60)
     context = canvas.get_wgpu_context()
     colour_format = context.get_preferred_format(device.adapter)
-    context.configure(device=device, format=colour_format)
+    usage = wgpu.TextureUsage.RENDER_ATTACHMENT | wgpu.TextureUsage.COPY_DST
+    context.configure(device=device, format=colour_format, usage=usage)
     renderer = Renderer(
         plants, geometries, ground, canvas.get_physical_size(), None, colour_format, extra_looks, beds
     )
@@ -92,12 +96,24 @@ def show_window(
     panel.set_gui(view.panel)
     canvas.add_event_handler(view.handle, "pointer_move", "wheel")
 
+    failures: list[GraphicsError] = []
+
     def draw() -> None:
-        view.draw(context.get_current_texture())
-        panel.render()
+        try:
+            with card_errors("drawing the window"):
+                view.draw(canvas.get_physical_size())
+                # The window's own texture is held as shortly as can be: to release it on a lost card ends the process.
+                renderer.copy_into(context.get_current_texture())
+                panel.render()
+        except GraphicsError as error:
+            failures.append(error)
+            loop.stop()
+            raise wgpu.DrawCancelled from error  # any other error would be logged, and the window drawn again
 
     canvas.request_draw(draw)
     loop.run()
+    if failures:
+        raise failures[0]
 
 
 def require_display() -> None:
@@ -124,16 +140,16 @@ class _LiveView:
         self._frames = 0
         self._stages = ""
 
-    def draw(self, texture: Any) -> None:
-        """Advance the scene and draw it into the window's texture."""
+    def draw(self, size: tuple[int, int]) -> None:
+        """Advance the scene and draw it for a window of so many pixels."""
         now = perf_counter()
         passed, self._last = now - self._last, now
         self._frame_time += 0.1 * (passed - self._frame_time)
-        if texture.size[:2] != self._renderer.size:
-            self._renderer.resize(texture.size[:2])
+        if size != self._renderer.size:
+            self._renderer.resize(size)
         step = 0.0 if self._controls.paused else min(passed, LONGEST_STEP)
         frame = self._advance(step, self._controls, self._orbit.camera(), self._renderer.size)
-        self._drawn = self._renderer.draw_into(texture.create_view(), frame)
+        self._drawn = self._renderer.draw_aside(frame)
         self._frames += 1
         if self._frames % STAGES_EVERY == 0:
             times = self._renderer.stage_milliseconds
@@ -175,8 +191,8 @@ class _LiveView:
             return ""
         rate = 1.0 / max(self._frame_time, 1e-6)
         drawn = self._drawn
-        without_room = f", {drawn.refused} plants without room" if drawn.refused else ""
+        without_room = f", without room: {drawn.refused:,}" if drawn.refused else ""
         return (
-            f"{rate:.0f} frames/s, {drawn.placements} plants, "
-            f"{drawn.pieces} stem pieces, {drawn.leaves} leaves{without_room}"
+            f"{rate:.0f} frames/s, plants: {drawn.placements:,}, "
+            f"stem pieces: {drawn.pieces:,}, leaves: {drawn.leaves:,}{without_room}"
         )

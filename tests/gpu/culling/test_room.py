@@ -21,8 +21,8 @@ def another(wood: Wood) -> Wood:
     return replace(wood, renderer=wood_renderer(wood.plants))
 
 
-def draw_into(wood: Wood, camera: Camera):
-    return wood.renderer.draw_into(wood.renderer._picture.create_view(), wood.frame(camera))
+def told_of(wood: Wood, camera: Camera):
+    return wood.renderer.draw_aside(wood.frame(camera))
 
 
 @pytest.mark.parametrize("share", [0.7, 0.4, 0.05])
@@ -92,9 +92,9 @@ def test_with_room_for_nobody_only_ground_and_sky_are_drawn(wood, monkeypatch):
 def test_room_grows_some_frames_after_a_window_lacked_it(wood, monkeypatch):
     grown = another(wood)
     away = Camera((200.0, 0.0, 3.0), (400.0, 0.0, 3.0))
-    draw_into(grown, away)
+    told_of(grown, away)
     before = grown.renderer.posing.room
-    told = [draw_into(grown, CAMERA) for _ in range(4 * LATE)]
+    told = [told_of(grown, CAMERA) for _ in range(4 * LATE)]
     wanted = wood.listed(CAMERA)
     assert before[3] < wanted.leaf_count <= grown.renderer.posing.room[3]
     assert any(one.refused for one in told)
