@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,10 @@ class View:
     shadow_radius: float
     shadow_texel: float
     """Side of a texel of the shadow map, m: all the detail that a plant out of sight needs."""
+
+    def coarser(self, share: float) -> View:
+        """The same in a picture of ``share`` times the height."""
+        return replace(self, screen_height=int(share * self.screen_height))
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
@@ -21,6 +21,7 @@ from windswept.gpu.device import is_software, shared_device
 from windswept.gpu.draw_list import DrawList, View, draw_list
 from windswept.gpu.draw_plan import DrawPlan
 from windswept.gpu.failures import card_errors
+from windswept.gpu.fitting import followed_detail, most_detail
 from windswept.gpu.frame import FLAT_GROUND, CardMotion, Frame, Ground
 from windswept.gpu.lighting import SHADOW_TEXELS, Lighting
 from windswept.gpu.matrices import camera_matrix, frustum_planes, shadow_ball, sun_matrix
@@ -39,8 +40,6 @@ SAMPLES = 4
 """Of a pixel (MSAA)."""
 SHADOW_REACH = (20.0, 120.0)
 """Least and greatest distance from the camera to which shadows are drawn, m; twice that of its target if between."""
-LEAST_DETAIL = 0.3
-"""Where plants need more room than a card has, they are drawn as in a picture of down to this share of the height."""
 PICTURE_FORMAT = "rgba8unorm-srgb"
 STAGES = ("lawn", "choose", "cull", "curves", "shadows", "blades", "picture")
 """Of a frame, as they are timed."""
@@ -117,6 +116,7 @@ class Renderer:
         self.culling = Culling(self._device, self.kinds, self._rules, self._plan)
         self._tally = Tally(self._device, self._plan)
         self._told = Told((0, 0, 0, 0), 0, 0, 0, 0)
+        self._detail = 1.0
         self._backdrop = Backdrop(self._device, ground, *shared)
         self.meadow: MeadowDrawing | None = None
         if beds:
@@ -156,9 +156,9 @@ class Renderer:
     @card_errors("drawing pictures")
     def draw(self, frame: Frame) -> NDArray[np.uint8]:
         """(height, width, 4) sRGB picture with alpha 255."""
+        if frame.motion is not None:
+            self._fit_plants(frame, frame.motion, self._look(frame)[0])
         self.draw_aside(frame)
-        if frame.motion is not None and self._has_grown(self.told_now):
-            return self.draw(frame)
         width, height = self.size
         data = self._device.queue.read_texture(
             {"texture": self._picture},
@@ -215,15 +215,30 @@ class Renderer:
         self._plan.write(wanted)
         self._told = told_of(wanted)
 
+    def _fit_plants(self, frame: Frame, motion: CardMotion, view: View) -> None:
+        """Makes room for what a picture draws, and finds the detail for which there is some; waits for the card."""
+        self.culling.place(frame.plants)
+
+        def fits(share: float) -> bool:
+            encoder = self._device.create_command_encoder()
+            self.culling.record(encoder, view.coarser(share), self.posing.room, motion.speeds, {})
+            self._device.queue.submit([encoder.finish()])
+            told = self.told_now
+            return not told.refused or (self._has_grown(told) and fits(share))
+
+        self._detail = most_detail(fits)
+
     def _encode_plants(self, encoder: Any, frame: Frame, motion: CardMotion, view: View) -> None:
         """Has the card choose what is drawn, and pose it; nothing of a placement is uploaded but when it is new."""
         if self.culling.place(frame.plants):
-            self._has_grown(told_of(draw_list(self.kinds, frame.plants, view, self._rules)))
+            self._fit_plants(frame, motion, view)
         told = self._tally.late(self.culling.shortened)
         if told is not None:
             self._told = told
-            self._has_grown(told)
-        self.culling.record(encoder, view, self.posing.room, motion.speeds, self._times.around("cull"))
+            if not self._has_grown(told):
+                self._detail = followed_detail(self._detail, told, self.posing.room)
+        room, timestamps = self.posing.room, self._times.around("cull")
+        self.culling.record(encoder, view.coarser(self._detail), room, motion.speeds, timestamps)
         motion.pose(encoder, self.culling.seating(self.posing.links.buffer))
         self._tally.copy(encoder)
 
@@ -236,23 +251,17 @@ class Renderer:
         return lacks
 
     def _list_that_fits(self, frame: Frame, view: View) -> DrawList:
-        """What is drawn, in the detail of a smaller picture where this card has no room for that of the picture's own.
+        """What is drawn, in the detail of a smaller picture where this card has no room for that of this one."""
+        lists: dict[float, DrawList] = {}
 
-        The largest such picture is sought by halving, so that detail goes smoothly with what is seen.
-        """
-        wanted = draw_list(self.kinds, frame.plants, view, self._rules)
-        if self.posing.affordable(wanted.counts) == wanted.counts:
-            return wanted
-        low, high = int(LEAST_DETAIL * view.screen_height), view.screen_height
-        fitting = draw_list(self.kinds, frame.plants, replace(view, screen_height=low), self._rules)
-        while high - low > max(1, view.screen_height // 50):
-            middle = (low + high) // 2
-            wanted = draw_list(self.kinds, frame.plants, replace(view, screen_height=middle), self._rules)
-            if self.posing.affordable(wanted.counts) == wanted.counts:
-                low, fitting = middle, wanted
-            else:
-                high = middle
-        return fitting
+        def fits(share: float) -> bool:
+            lists[share] = draw_list(self.kinds, frame.plants, view.coarser(share), self._rules)
+            return self.posing.affordable(lists[share].counts) == lists[share].counts
+
+        share = most_detail(fits)
+        if share not in lists:
+            fits(share)
+        return lists[share]
 
     @property
     def stage_milliseconds(self) -> dict[str, float]:

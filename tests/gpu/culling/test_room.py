@@ -1,4 +1,4 @@
-"""Where there is no room for all, the nearest are drawn and the others counted; room grows with what is wanted."""
+"""Where there is no room for all, they are drawn in less detail, and beyond that the nearest are; room grows."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from windswept.gpu import layouts, posing
+from windswept.gpu import fitting, layouts, posing
 from windswept.gpu.culling.standing_rows import shortening
 from windswept.gpu.culling.tally import LATE
 from windswept.gpu.frame import Camera
@@ -31,6 +31,7 @@ def test_the_nearest_find_seats_and_the_others_are_counted(wood, device, monkeyp
     wanted = wood.listed(CAMERA)
     row_bytes = [store.row_bytes for store in wood.renderer.posing._stores]
     monkeypatch.setattr(posing, "MOST_BYTES", int(share * wanted.counts[column]) * row_bytes[column])
+    monkeypatch.setattr(fitting, "LEAST_DETAIL", 1.0)
     poor = another(wood)
     poor.renderer.draw(poor.frame(CAMERA))
     told = poor.renderer._tally.now(0)
@@ -58,14 +59,44 @@ def test_the_nearest_find_seats_and_the_others_are_counted(wood, device, monkeyp
     assert told.refused > 0
 
 
+def room_for(wood: Wood, share: float, monkeypatch):
+    """Leaves every buffer room for a share of the one that needs most."""
+    counts, stores = wood.listed(CAMERA).counts, wood.renderer.posing._stores
+    needed = [count * store.row_bytes for count, store in zip(counts, stores, strict=True)]
+    monkeypatch.setattr(posing, "MOST_BYTES", int(share * max(needed)))
+
+
+@pytest.mark.parametrize("share", [0.95, 0.85])
+def test_the_card_takes_the_detail_that_a_list_takes(wood, monkeypatch, share):
+    room_for(wood, share, monkeypatch)
+    poor, listing = another(wood).renderer, another(wood).renderer
+    poor.draw(wood.frame(CAMERA))
+    listing.draw(wood.uploaded(CAMERA))
+    assert poor.told_now == listing._told
+    assert poor.told_now.refused == 0
+    assert poor.told_now.leaves < wood.listed(CAMERA).leaf_count
+
+
+def test_a_window_finds_its_detail_and_goes_back(wood, monkeypatch):
+    room_for(wood, 0.85, monkeypatch)
+    poor = another(wood)
+    away = Camera((200.0, 0.0, 3.0), (400.0, 0.0, 3.0))
+    told_of(poor, away)
+    told = [told_of(poor, CAMERA) for _ in range(30 * LATE)]
+    assert any(one.refused for one in told)
+    assert told[-1].refused == 0
+    detail = poor.renderer._detail
+    assert fitting.LEAST_DETAIL < detail < 1.0
+    for _ in range(60 * LATE):
+        told_of(poor, away)
+    assert poor.renderer._detail == 1.0
+
+
 def test_listed_plants_are_drawn_in_less_detail_where_there_is_no_room(wood, monkeypatch):
     wanted = wood.listed(CAMERA)
-    needed = [
-        n * store.row_bytes for n, store in zip(wanted.counts, wood.renderer.posing._stores, strict=True)
-    ]
     away = Camera((200.0, 0.0, 3.0), (0.0, 0.0, 3.0))
     far = another(wood).renderer.draw(wood.uploaded(away))
-    monkeypatch.setattr(posing, "MOST_BYTES", int(0.9 * max(needed)))
+    room_for(wood, 0.9, monkeypatch)
     poor = another(wood).renderer
     poor.draw(wood.uploaded(CAMERA))
     told = poor._told
