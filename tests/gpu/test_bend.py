@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from functools import cache
 from importlib.resources import files
 
 import numpy as np
@@ -12,11 +13,14 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from golden_picture import check_golden, skip_other_drivers
 from handmade import build_plant, random_tree, straight
-from windswept.errors import InputError
+from windswept.errors import GraphicsError, InputError
 from windswept.geometry.bark import bark_surface
 from windswept.geometry.curves import build_geometry
 from windswept.geometry.detail import DetailRules
 from windswept.geometry.geometry import PosedCurves
+from windswept.gpu import device as device_module
+from windswept.gpu import failures
+from windswept.gpu import renderer as renderer_module
 from windswept.gpu.bend import Bending, BranchDrawing, branch_look_rows, layouts
 from windswept.gpu.bend.branch_rows import branch_rows
 from windswept.gpu.buffers import filled
@@ -137,6 +141,76 @@ def test_still_air_keeps_the_rest_pose_bit_by_bit(device, grove):
     for _ in range(grove[2].level_count):
         card.step_lagged(calm(), 0.0)
     assert_array_equal(card.pose().points, rest)
+
+
+def test_steps_taken_at_once_are_those_taken_one_by_one(device, grove):
+    _, _, branches = grove
+    for mode in ("step_lagged", "step_ordered"):
+        for steps in (2, 3):
+            at_once, singly = Bending(device, branches), Bending(device, branches)
+            getattr(at_once, mode)(gusty(), 3.0, steps)
+            for _ in range(steps):
+                getattr(singly, mode)(gusty(), 3.0)
+            assert_array_equal(at_once.pose().points, singly.pose().points)
+            getattr(at_once, mode)(gusty(), 4.0)
+            getattr(singly, mode)(gusty(), 4.0)
+            assert_array_equal(at_once.pose().points, singly.pose().points)
+
+
+def test_the_card_keeps_no_branches_as_well(device):
+    none = place_branches([], np.zeros(0, np.int32), np.zeros((0, 3), np.float32), np.zeros(0, np.float32))
+    card = Bending(device, none)
+    for step in (card.step_lagged, card.step_ordered):
+        step(gusty(), 1.0)
+        card.wait()
+        assert card.pose().points.shape == (0, 4, 3)
+        assert card.pose().side.shape == (0, 3)
+
+
+def test_a_refused_wind_leaves_the_branches_where_they_were(device, grove):
+    card, crowd = Bending(device, grove[2]), plausible_waves(6.0, 0.3, 1, along_count=layouts.WAVE_LIMIT + 1)
+    card.step_lagged(gusty(), 3.0)
+    before = card.pose().points
+    with pytest.raises(InputError, match="waves"):
+        card.step_lagged(Wind(waves=WaveSchedule((WaveSet(crowd),))), 3.0)
+    assert_array_equal(card.pose().points, before)
+
+
+@pytest.mark.parametrize(
+    "call", ["step_lagged", "step_ordered", "wait", "pose", "draw", "new", "new_drawing"]
+)
+def test_every_call_says_that_the_card_was_lost(grove, monkeypatch, call):
+    plants, kind, branches = grove
+    own = cache(device_module.shared_device.__wrapped__)
+    for module in (renderer_module, failures):
+        monkeypatch.setattr(module, "shared_device", own)
+    geometries = [build_geometry(plant) for plant in plants]
+    renderer = Renderer(plants, geometries, size=(32, 32))
+    looks, rows = branch_look_rows(branches, geometries, renderer.kinds, kind)
+    card = Bending(own(), branches, rows)
+    renderer.beside.append(BranchDrawing(renderer, card, looks))
+    nobody = tuple(
+        PosedPlants(
+            np.zeros((0, plant.link_count, 8), np.float32), np.zeros((0, 3), np.float32), *np.zeros((2, 0))
+        )
+        for plant in plants
+    )
+    frame = Frame(nobody, Camera((0.6, -4.6, 1.7), (0.6, 0.0, 1.45)))
+    calls = {
+        "step_lagged": lambda: card.step_lagged(gusty(), 1.0),
+        "step_ordered": lambda: card.step_ordered(gusty(), 1.0),
+        "wait": card.wait,
+        "pose": card.pose,
+        "draw": lambda: renderer.draw(frame),
+        "new": lambda: Bending(card._device, branches),
+        "new_drawing": lambda: BranchDrawing(renderer, card, looks),
+    }
+    calls[call]()
+    lost = own()
+    lost.destroy()
+    with pytest.raises(GraphicsError, match="the graphics card was lost while"):
+        calls[call]()
+    assert own() is not lost
 
 
 def test_more_waves_than_the_card_is_given_are_refused(device, grove):

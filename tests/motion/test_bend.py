@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -64,6 +64,25 @@ def tall(branches: Branches) -> float:
 def curve(points: np.ndarray, t: np.ndarray) -> np.ndarray:
     s = 1.0 - t
     return np.stack([s**3, 3 * s * s * t, 3 * s * t * t, t**3], axis=1) @ points
+
+
+@pytest.mark.parametrize("kinds", [0, 1])
+def test_nothing_placed_is_no_branches(kinds: int) -> None:
+    none = place_branches(
+        [pliant(4)][:kinds], np.zeros(0, np.int32), np.zeros((0, 3), np.float32), np.zeros(0, np.float32)
+    )
+    assert (none.branch_count, none.level_count) == (0, 0)
+    some = pliant(4)
+    for field in fields(Branches):
+        ours, theirs = getattr(none, field.name), getattr(some, field.name)
+        assert (ours.dtype, ours.shape[1:]) == (theirs.dtype, theirs.shape[1:])
+    bender = Bender(none)
+    state = bender.rest()
+    for step in (bender.step_lagged, bender.step_ordered):
+        assert bender.pose(step(state, gusty(), 1.0)).points.shape == (0, 4, 3)
+    plain = step_ordered(none, bend_factor(none, gusty(), 1.0), WEIGHTS["beam"])
+    assert step_lagged(none, plain, np.zeros((0, 3)), WEIGHTS["beam"]).points.shape == (0, 4, 3)
+    assert attachment_gap(none, plain).shape == (0,)
 
 
 def test_still_air_gives_the_rest_pose_bit_by_bit(branches: Branches) -> None:

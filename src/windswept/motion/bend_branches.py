@@ -66,6 +66,21 @@ class BranchPose:
     """(R, 3) handle S0, unit."""
 
 
+NOTHING = Branches(
+    parent=np.zeros(0, np.int32),
+    level_start=np.zeros(1, np.int32),
+    attach=np.zeros(0, np.float32),
+    legs=np.zeros((0, 3, 3), np.float32),
+    side=np.zeros((0, 3), np.float32),
+    flexibility=np.zeros(0, np.float32),
+    tip=np.zeros((0, 3), np.float32),
+    origin=np.zeros((0, 3), np.float32),
+    stem=np.zeros(0, np.int32),
+    placement=np.zeros(0, np.int32),
+)
+"""Not a single branch."""
+
+
 def place_branches(kinds: Sequence[Branches], kind: Ints, position: Floats, yaw: Floats) -> Branches:
     """Branches of a whole scene.
 
@@ -74,8 +89,11 @@ def place_branches(kinds: Sequence[Branches], kind: Ints, position: Floats, yaw:
         kind: (P,) which of them each placement is.
         position: (P, 3) roots in the world, m.
         yaw: (P,) turn about +Z, rad.
+
+    Returns:
+        No branches and no level where nothing is placed.
     """
-    copies = [_placed(kinds[k], *place) for k, *place in zip(kind, position, yaw, strict=True)]
+    copies = [_placed(kinds[k], *place) for k, *place in zip(kind, position, yaw, strict=True)] or [NOTHING]
     first = np.concatenate([[0], np.cumsum([copy.branch_count for copy in copies])])
     level = np.concatenate([_level_of(copy) for copy in copies])
     # Stable: a plant's own rows are sorted by parent already, and placements follow one another in every level.
@@ -93,7 +111,7 @@ def place_branches(kinds: Sequence[Branches], kind: Ints, position: Floats, yaw:
     placement = np.repeat(np.arange(len(copies)), np.diff(first))[order]
     return Branches(
         parent=np.where(shifted < 0, -1, row[shifted]).astype(np.int32),
-        level_start=np.searchsorted(level[order], np.arange(level.max() + 2)).astype(np.int32),
+        level_start=np.searchsorted(level[order], np.arange(level.max(initial=-1) + 2)).astype(np.int32),
         placement=placement.astype(np.int32),
         **joined,
     )

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from windswept.gpu import layouts
 from windswept.gpu.bend.bending import Bending
 from windswept.gpu.buffers import UNIFORM, UNIFORM_STRIDE, filled
+from windswept.gpu.failures import card_errors
 from windswept.gpu.plant_drawing import STEM_BATCH, BatchedMesh, grid_triangles
 from windswept.gpu.renderer import Renderer
 from windswept.gpu.wiring import (
@@ -39,8 +40,12 @@ class BranchDrawing:
         looks: (R,) ``BRANCH_LOOK`` rows.
         grids: rings and sides for each level; one for all makes the paper's single mesh.
         lit: entry points of ``bark.wgsl``: "" for furrowed bark, "_lit" for light worked out at the vertices.
+
+    Raises:
+        GraphicsError: the card has too little memory, or was lost.
     """
 
+    @card_errors("drawing branches")
     def __init__(
         self,
         renderer: Renderer,
