@@ -20,7 +20,7 @@ from windswept.forms.files import check_place
     show_default=True,
     help="Of Beaudoin's tree.",
 )
-@click.option("-o", "--output", help="Folder for the pictures.")
+@click.option("-o", "--output", help="Folder for pictures like the paper's, skjermo's figure 8 among them.")
 @click.option("--json", "as_json", is_flag=True, help="A JSON list of rows.")
 def command(paper: str, links: int, output: str | None, as_json: bool) -> None:
     """Make a founding paper's table beside ours.
