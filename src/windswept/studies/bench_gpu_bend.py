@@ -27,7 +27,7 @@ def bench_gpu_bend(say: Callable[[str], None] = lambda line: None) -> dict[str, 
 
     A lagged pass (the paper's) is one dispatch over all branches, an ordered one is a dispatch a level. PASSES are
     submitted at once, each on the pose that the one before wrote, and timed from the first to the last by the card's
-    own clock, if it has one: ``ns_per_branch`` and ``per_second`` (passes), the same after ``ordered_``. Neither the
+    own clock, on software drivers by the one on the wall: ``ns_per_branch`` and ``per_second`` (passes), the same after ``ordered_``. Neither the
     wind's upload nor any reading back is in it. ``times_paper`` is lagged over the paper's, ``times_cpu`` our time on
     the CPU, all its threads, over the card's. A card whose cache holds all ``bytes`` reads little from its memory.
     """
@@ -58,7 +58,9 @@ def _bent(branches: Branches, paper: float) -> dict[str, float]:
 
 
 def _seconds(card: Bending, step: Callable[[Wind, float, int], None], wind: Wind) -> float:
-    """Median time of one pass, s: by the card's clock, which Mesa's software driver loses once a picture was drawn."""
+    """Median time of one pass, s: by the card's clock where it has one, but not by that of Mesa's software driver,
+    which after a picture may begin to count at a second dispatch only (``gpu/kernel.py``).
+    """
     software = is_software(shared_device())
     passes = SOFTWARE_PASSES if software else PASSES
 
