@@ -26,10 +26,11 @@ def bench_gpu_bend(say: Callable[[str], None] = lambda line: None) -> dict[str, 
     """Figures ``gpu.bend.<branches>.*``, in four waves, as many as the paper's.
 
     A lagged pass (the paper's) is one dispatch over all branches, an ordered one is a dispatch a level. PASSES are
-    submitted at once, each on the pose that the one before wrote, and timed from the first to the last by the card's
-    own clock, on software drivers by the one on the wall: ``ns_per_branch`` and ``per_second`` (passes), the same after ``ordered_``. Neither the
-    wind's upload nor any reading back is in it. ``times_paper`` is lagged over the paper's, ``times_cpu`` our time on
-    the CPU, all its threads, over the card's. A card whose cache holds all ``bytes`` reads little from its memory.
+    submitted at once, each on the pose that the one before wrote: ``ns_per_branch`` and ``per_second`` (passes), the
+    same after ``ordered_``. The card's own clock times them from the first to the last, without the wind's upload or
+    any reading back; on software drivers it is SOFTWARE_PASSES by the clock on the wall, from call to answer.
+    ``times_paper`` is lagged over the paper's, ``times_cpu`` our time on the CPU, all its threads, over the card's. A
+    card whose cache holds all ``bytes`` reads little from its memory.
     """
     say(f"gpu bend, on {adapter_summary()}")
     figures: dict[str, float] = {}
