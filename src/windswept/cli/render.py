@@ -55,7 +55,9 @@ def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, in
     "--level-colours", is_flag=True, help="Colour plants by simulation level: red every link, violet one."
 )
 @click.option(
-    "--gpu", is_flag=True, help="Simulate on the graphics card; on the CPU where it has too little memory."
+    "--gpu",
+    is_flag=True,
+    help="Simulate on the graphics card; on the CPU where it has too little memory or is lost.",
 )
 @click.option(
     "--multibody",
@@ -141,6 +143,15 @@ def _without_card(
     )
 
 
+def start_again(
+    simulation: GpuSimulation, levels: bool, size: tuple[int, int], multibody: bool = False
+) -> Simulation:
+    """The scene of a simulation whose card was lost, on the CPU from its beginning."""
+    beds = () if simulation.meadow is None else simulation.meadow.beds
+    plants = [kind.plant for kind in simulation.kinds]
+    return _without_card(simulation.scene, plants, beds, levels, size, multibody)
+
+
 def render_scene(
     scene: Scene,
     output: Path,
@@ -168,9 +179,7 @@ def render_scene(
             if isinstance(simulation, Simulation):
                 raise
             click.echo(f"windswept: {error}; starting again on the CPU", err=True)
-            beds = () if simulation.meadow is None else simulation.meadow.beds
-            plants = [kind.plant for kind in simulation.kinds]
-            simulation = _without_card(scene, plants, beds, levels, size, multibody)
+            simulation = start_again(simulation, levels, size, multibody)
             spent = _film(simulation, output, at, shot, still)
     # A card works on while the CPU goes ahead: there only its own clock knows.
     speed = (

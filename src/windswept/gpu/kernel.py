@@ -6,10 +6,8 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 import wgpu
 
-from windswept.gpu.buffers import filled
 from windswept.gpu.device import is_software
 from windswept.gpu.wiring import (
     COMPUTE,
@@ -63,7 +61,7 @@ class Kernel:
         # barrier. wgpu sets none before a first dispatch, unless the card holds the dispatch's size: so one of nothing
         # goes ahead of each, else its time would be missing.
         self._nothing = (
-            filled(device, np.zeros(3, np.uint32), wgpu.BufferUsage.INDIRECT) if is_software(device) else None
+            device.create_buffer(size=12, usage=wgpu.BufferUsage.INDIRECT) if is_software(device) else None
         )
         declared = declared_bindings(module)
         self._declared = {name: declared[name] for name in declared if name in resources}
