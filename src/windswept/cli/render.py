@@ -14,6 +14,7 @@ import click
 from windswept.cli.numbers import SEED, FiniteRange
 from windswept.cli.progress import progress_bar, status_line
 from windswept.errors import GraphicsError, InputError
+from windswept.forms.files import check_place
 from windswept.scene.load_scene import load_scene
 from windswept.scene.meadow import plant_meadow
 from windswept.scene.scene import Scene
@@ -82,10 +83,9 @@ def command(
 
     Example: windswept render examples/forest_edge.toml -o edge.mp4
     """
-    from windswept.render.film import check_film
-
-    check_film(output)
-    scene = load_scene(source, seed)
+    _check_asked(output, at, duration)
+    with status_line(f"reading {source}"):
+        scene = load_scene(source, seed)
     if duration is not None:
         scene = replace(scene, duration=duration)
     figures = render_scene(scene, output, size, at, levels, level_colours, gpu=gpu, multibody=multibody)
@@ -95,8 +95,20 @@ def command(
     if figures["refused"]:
         line = "plants found no room on the card and are missing from a picture"
         click.echo(f"windswept: {figures['refused']:,} {line}", err=True)
-    if as_json:
-        click.echo(json.dumps(figures))
+    click.echo(json.dumps(figures) if as_json else f"wrote {output}")
+
+
+def _check_asked(output: Path, at: float | None, duration: float | None) -> None:
+    """Refuses a file that cannot be made, and an option that it would not heed."""
+    from windswept.render.film import PICTURE_ENDINGS
+    from windswept.render.video import VIDEO_ENDINGS
+
+    check_place(output, PICTURE_ENDINGS + VIDEO_ENDINGS, "--output")
+    is_picture = output.suffix.lower() in PICTURE_ENDINGS
+    if is_picture and duration is not None:
+        raise InputError("--duration", "", duration, "a video as --output; the time of a picture is --at")
+    if not is_picture and at is not None:
+        raise InputError("--at", "", at, "a picture as --output; the length of a video is --duration")
 
 
 def start(
