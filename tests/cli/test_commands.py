@@ -73,7 +73,8 @@ def test_reproduce_makes_the_folder_that_it_is_given(
     folder = tmp_path / "new" / "pictures"
     assert run("reproduce", "endo", "-o", folder, "--json") == 0
     assert folder.is_dir()
-    assert capsys.readouterr().out == "[]\n"
+    said = capsys.readouterr()
+    assert (said.out, said.err) == ("[]\n", f"wrote pictures into {folder}\n")
     (tmp_path / "file").write_text("")
     for place in (tmp_path / "file", tmp_path / "file" / "pictures"):
         assert run("reproduce", "endo", "-o", place) == 2

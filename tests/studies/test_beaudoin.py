@@ -24,6 +24,7 @@ def test_the_table_stands_beside_the_papers_and_ours_errs_less(tmp_path: Path) -
     for row, (count, _) in zip(rows[:-2], PAPER, strict=False):
         assert row["branches"] == pytest.approx(2000 * count / PAPER[0][0], rel=0.25)
     assert rows[0]["rms_over_motion"] == 0.0
+    assert rows[0]["speedup"] == 1.0
     for row in rows[1:]:
         assert 0.0 < row["rms_over_motion"] < row["printed_rms_over_motion"]
         assert row["max_m"] <= row["bound_m"]

@@ -54,6 +54,8 @@ def command(paper: str, links: int | None, output: str | None, as_json: bool) ->
         from windswept.studies.skjermo import skjermo
 
         rows, table = skjermo(folder, say=say), _skjermo_table
+    if folder is not None:
+        say(f"wrote pictures into {folder}")
     if as_json:
         click.echo(json.dumps(rows))
     else:

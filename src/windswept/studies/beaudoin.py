@@ -60,17 +60,17 @@ def beaudoin(
     bound = bound_errors(one)
     if folder is not None:
         draw_beaudoin(plant, hierarchy.model, ours, folder, say)
-    full, pixel = nanoseconds_per_step(hierarchy.model, finest), pixel_at_crown_distance(ladder)
+    nanoseconds = [nanoseconds_per_step(hierarchy.model, level) for level in ours]
+    pixel = pixel_at_crown_distance(ladder)
     rows = []
     for rung, ((branches, fps), level) in enumerate(zip(PAPER, ours, strict=True)):
-        nanoseconds = nanoseconds_per_step(hierarchy.model, level)
         row: dict[str, float] = {
             "paper_branches": branches,
             "paper_fps": fps,
             "paper_speedup": round(fps / PAPER[0][1], 2),
             "branches": oscillator_count(level),
-            "steps_per_second": round(1e9 / nanoseconds, 1),
-            "speedup": round(full / nanoseconds, 2),
+            "steps_per_second": round(1e9 / nanoseconds[rung], 1),
+            "speedup": round(nanoseconds[0] / nanoseconds[rung], 2),
             "bound_m": round(float(bound[rung]), 4),
         }
         rows.append(row | _errors(measured, rung, pixel) | _errors(printed, rung, pixel, "printed_"))
