@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from windswept.motion.model import Model, drag_mobility, exact_step, tension_per_force
+from windswept.motion.exact_step import exact_step
+from windswept.motion.model import Model, drag_mobility, tension_per_force
 from windswept.motion.rods import Doubles
 from windswept.motion.shapes import MAX_ANGLE
 from windswept.plants.air import reconfiguration
@@ -86,4 +87,29 @@ def step_plain(
     target = np.clip(model.rods.compliance * torque, -MAX_ANGLE, MAX_ANGLE)
     y = (angles - target) / np.maximum(np.linalg.norm(force, axis=1) * tension_per_force(model), 1.0)[:, None]
     moved = np.clip(angles - y + xx * y + xv * velocities, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE)
-    return moved, vx * y + vv * velocities
+    swung = vx * y + vv * velocities
+    change, quickening = modal_correction(model, y, velocities, coefficients)
+    return np.clip(moved + change, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE), swung + quickening
+
+
+def modal_correction(
+    model: Model, deviation: Doubles, velocities: Doubles, own: Doubles
+) -> tuple[Doubles, Doubles]:
+    """(L, 2) what the modes' own step adds to angles and to velocities; see modal.py.
+
+    Args:
+        model: the plant's constants.
+        deviation: (L, 2) angles less static angles, rad.
+        velocities: (L, 2) rad/s.
+        own: (L, 4) the joints' exact step.
+    """
+    modes, links = model.modes, model.modes.link
+    change, quickening = np.zeros_like(deviation), np.zeros_like(deviation)
+    y = modes.gain @ np.einsum("kir,ki->r", modes.torque, deviation[links])
+    v = modes.gain @ np.einsum("kir,ki->r", modes.torque, velocities[links])
+    xx, xv, vx, vv = modes.step.T
+    joint_y, joint_v = modes.angle @ y, modes.angle @ v
+    a, b, c, d = own[links].T[:, :, None]
+    change[links] = modes.angle @ (xx * y + xv * v) - a * joint_y - b * joint_v
+    quickening[links] = modes.angle @ (vx * y + vv * v) - c * joint_y - d * joint_v
+    return change, quickening

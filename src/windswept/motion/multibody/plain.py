@@ -11,14 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from windswept.motion.model import Model
+from windswept.motion.model import Model, joint_lag
 from windswept.motion.multibody.constants import (
     PULL_WEIGHT,
     RATE_LEAD,
     STOP_ANGLE,
     STOP_STIFFNESS,
     forces_at,
-    joint_lag,
     warped_step,
 )
 from windswept.motion.rods import Doubles
