@@ -13,6 +13,7 @@
 @group(0) @binding(5) var<storage, read_write> state: array<vec4f>;
 @group(0) @binding(6) var<storage, read_write> stack: array<vec4f>;
 @group(0) @binding(7) var<uniform> moment: Moment;
+@group(0) @binding(8) var<storage, read> modes: array<vec4u>;   // see springs/mode_rows.py
 
 // Links that this dispatch walks; where there are more, it goes on where the one before it left off.
 override FIRST: u32 = 0u;
@@ -22,6 +23,17 @@ const REST_THRESHOLD = 1e-9;
 const GROUP_REST_THRESHOLD = 1e-7;
 const TINY = 1e-30;
 const RECORD = 5u;   // rows of a link in the stack
+const MODES = 4u;    // MODE_COUNT of motion/modal.py
+const MODE_RECORD = 3u;   // rows of the modes in the stack, beyond all links
+
+// What the joints that are done add up to in each mode: deviation from the static angle, rate; and which comes next.
+struct Modal {
+    deviation: vec4f,
+    rate: vec4f,
+    next: u32,
+}
+
+var<private> modal: Modal;
 
 struct Body {
     rotation: vec4f,
@@ -128,26 +140,81 @@ fn pose_and_drag(link: Link, joint: vec4f, parent: Body, air: vec4f) -> Body {
     return body;
 }
 
-// The exact step of one spring (angle, rate) towards compliance x torque; see springs.py on the tension.
-fn oscillate(link: Link, angle: f32, rate: f32, bend: f32, tension: f32) -> vec2f {
-    let y = (angle - clamp(bend, -MAX_ANGLE, MAX_ANGLE)) / tension;
-    let swung = clamp(angle - y + y * link.swing.x + rate * link.swing.y, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE);
-    let after = vec2f(swung, y * link.swing.z + rate * link.swing.w);
+// Angle and rate as a joint may have them.
+fn bounded(angle: f32, rate: f32) -> vec2f {
+    let after = vec2f(clamp(angle, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE), rate);
     return select(after, vec2f(0.0), abs(after) < vec2f(REST_THRESHOLD));
 }
 
-fn swing_joint(link: Link, row: u32, body: Body, parent: Body) {
+// The exact step of one spring (angle, rate) towards compliance x torque, and how far it deviated from there; see
+// springs.py on the tension.
+fn oscillate(link: Link, angle: f32, rate: f32, bend: f32, tension: f32) -> vec3f {
+    let y = (angle - clamp(bend, -MAX_ANGLE, MAX_ANGLE)) / tension;
+    let swung = angle - y + y * link.swing.x + rate * link.swing.y;
+    return vec3f(bounded(swung, y * link.swing.z + rate * link.swing.w), y);
+}
+
+fn mode_row(row: u32) -> vec4f {
+    return bitcast<vec4f>(modes[row]);
+}
+
+fn swing_joint(link: Link, number: u32, mine: vec2u, row: u32, body: Body, parent: Body) {
     let joint = state[row];
     let torque = rotate_back(parent.rotation, body.torque - cross(body.place, body.force));
     let tension = max(sqrt(dot(body.force, body.force) + TINY) * link.more.y, 1.0);
     let first = oscillate(link, joint.x, joint.y, dot(torque, link.axis_1.xyz) * link.axis_1.w, tension);
     let second = oscillate(link, joint.z, joint.w, dot(torque, link.axis_2.xyz) * link.axis_2.w, tension);
-    state[row] = vec4f(first, second);
+    state[row] = vec4f(first.xy, second.xy);
+    let entry = mine.x + 2u * MODES + 3u * modal.next;
+    if modal.next < mine.y && modes[entry].x == number {
+        let about_1 = mode_row(entry + 1u);
+        let about_2 = mode_row(entry + 2u);
+        modal.deviation += first.z * about_1 + second.z * about_2;
+        modal.rate += joint.y * about_1 + joint.w * about_2;
+        modal.next++;
+    }
 }
 
-// One inner step of one placement: the walk over its links, or over a share of them.
-fn walk(rung: Rung, column: Column, late: f32) {
+// Exchanges what every joint's own step made of the modes' part for what the modes' step makes of it; see modal.py.
+fn swing_modes(rung: Rung, mine: vec2u, column: Column) {
+    var y: vec4f;
+    var v: vec4f;
+    for (var r = 0u; r < MODES; r++) {
+        let gain = mode_row(mine.x + r);
+        y[r] = dot(gain, modal.deviation);
+        v[r] = dot(gain, modal.rate);
+    }
+    let step = mine.x + MODES;
+    let angle_after = mode_row(step) * y + mode_row(step + 1u) * v;
+    let rate_after = mode_row(step + 2u) * y + mode_row(step + 3u) * v;
+    for (var k = 0u; k < mine.y; k++) {
+        let entry = mine.x + 2u * MODES + 3u * k;
+        let number = modes[entry].x;
+        let link = links[rung.links.x + number];
+        let row = column.state + number * column.stride;
+        let about_1 = link.axis_1.w * mode_row(entry + 1u);
+        let about_2 = link.axis_2.w * mode_row(entry + 2u);
+        let own_1 = vec2f(dot(about_1, y), dot(about_1, v));
+        let own_2 = vec2f(dot(about_2, y), dot(about_2, v));
+        let joint = state[row];
+        let first = bounded(
+            joint.x + dot(about_1, angle_after) - dot(link.swing.xy, own_1),
+            joint.y + dot(about_1, rate_after) - dot(link.swing.zw, own_1),
+        );
+        let second = bounded(
+            joint.z + dot(about_2, angle_after) - dot(link.swing.xy, own_2),
+            joint.w + dot(about_2, rate_after) - dot(link.swing.zw, own_2),
+        );
+        state[row] = vec4f(first, second);
+    }
+}
+
+// One inner step of one placement: the walk over its links, or over a share of them. `mine` is where the rows of the
+// rung's modes begin, and how many links take part.
+fn walk(rung: Rung, mine: vec2u, column: Column, late: f32) {
     let stride = column.stride;
+    let held = column.stack + (rung.links.z + 1u) * RECORD * stride;
+    modal = Modal();
     var body: Body;
     var group = 0u;
     var top = column.stack;
@@ -160,6 +227,7 @@ fn walk(rung: Rung, column: Column, late: f32) {
     } else {
         top += u32(links[rung.links.x + FIRST].more.w) * RECORD * stride;
         body = take_up(top, stride);
+        modal = Modal(stack[held], stack[held + stride], u32(stack[held + 2u * stride].x));
         group = links[rung.links.x + FIRST - 1u].rows.z;
     }
     let end = FIRST + min(MOST, rung.links.y - FIRST);
@@ -177,14 +245,21 @@ fn walk(rung: Rung, column: Column, late: f32) {
             let ended = links[rung.links.x + done];
             top -= RECORD * stride;
             var parent = take_up(top, stride);
-            swing_joint(ended, column.state + done * stride, body, parent);
+            swing_joint(ended, done, mine, column.state + done * stride, body, parent);
             parent.force += ended.more.x * body.force;
             parent.torque += ended.more.x * body.torque;
             body = parent;
             done = ended.rows.x;
         }
     }
-    if end < rung.links.y { lay_down(top, stride, body); }
+    if end < rung.links.y {
+        lay_down(top, stride, body);
+        stack[held] = modal.deviation;
+        stack[held + stride] = modal.rate;
+        stack[held + 2u * stride] = vec4f(f32(modal.next), 0.0, 0.0, 0.0);
+    } else {
+        swing_modes(rung, mine, column);
+    }
 }
 
 @compute @workgroup_size(64)
@@ -202,11 +277,11 @@ fn step_block(
             joints,
             joints + rung.links.y * stride,
             rung.room.z + block.y * 2u * rung.probes.y * stride + lane,
-            rung.room.y + block.y * (rung.links.z + 1u) * RECORD * stride + lane,
+            rung.room.y + block.y * ((rung.links.z + 1u) * RECORD + MODE_RECORD) * stride + lane,
             stride,
         );
         for (var s = moment.steps.y; s < moment.steps.z; s++) {
-            walk(rung, column, f32(s + 1u) / f32(moment.steps.w));
+            walk(rung, modes[block.x].xy, column, f32(s + 1u) / f32(moment.steps.w));
         }
     }
 }
