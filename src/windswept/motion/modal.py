@@ -33,6 +33,8 @@ from windswept.plants.plant import Floats, Ints
 
 MODE_COUNT = 4
 """Modes that are stepped as such, R: for a tree the first two along and across."""
+NEAR_ENOUGH = 1e-4
+"""Relative error of a mode's frequency squared at which it is taken as found."""
 LEFT_OUT = 0.05
 """Share of each mode's elastic energy in the joints that are left out of it, those that turn least."""
 LEAST_SHARE = 0.25
@@ -79,7 +81,7 @@ def plant_modes(skeleton: Skeleton, rods: Rods, lag: Doubles, time_step: float) 
         lag: (L,) damping of every joint over its stiffness, s.
         time_step: fixed inner step, s.
     """
-    omega, shape = natural_modes(skeleton, rods, MODE_COUNT)
+    omega, shape = natural_modes(skeleton, rods, MODE_COUNT, NEAR_ENOUGH)
     # A single link has two freedoms: modes of no shape have no energy, and are left out.
     lacking = MODE_COUNT - len(omega)
     omega, shape = np.pad(omega, (0, lacking), "edge"), np.pad(shape, ((0, 0), (0, 0), (0, lacking)))

@@ -33,8 +33,16 @@ def plant_frequencies(skeleton: Skeleton, rods: Rods, count: int = 5) -> Doubles
     return natural_modes(skeleton, rods, count)[0] / (2.0 * np.pi)
 
 
-def natural_modes(skeleton: Skeleton, rods: Rods, count: int) -> tuple[Doubles, Doubles]:
+def natural_modes(
+    skeleton: Skeleton, rods: Rods, count: int, tolerance: float = 1e-8
+) -> tuple[Doubles, Doubles]:
     """The lowest natural modes of the whole plant, all joints coupled.
+
+    Args:
+        skeleton: the rest skeleton.
+        rods: mass and compliance.
+        count: how many.
+        tolerance: relative error of a frequency's square.
 
     Returns:
         (R,) angular frequencies in rad/s, ascending, and (L, 2, R) joint angles, with an elastic energy of 1/2; R is
@@ -54,7 +62,7 @@ def natural_modes(skeleton: Skeleton, rods: Rods, count: int) -> tuple[Doubles, 
     else:
         operator = LinearOperator((size, size), matvec=scaled_mass, dtype=np.float64)
         start = np.random.default_rng(0).standard_normal(size)
-        values, vectors = eigsh(operator, k=count, which="LA", v0=start, tol=1e-8)
+        values, vectors = eigsh(operator, k=count, which="LA", v0=start, tol=tolerance)
     slowest = np.argsort(-values)[:count]
     return 1.0 / np.sqrt(values[slowest]), root[..., None] * vectors[:, slowest].reshape(*root.shape, -1)
 
