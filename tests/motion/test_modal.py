@@ -22,7 +22,7 @@ SMALL = 1e-3
 
 def coordinates(modes: Modes, joints: np.ndarray) -> np.ndarray:
     """(R,) coordinates of (L, 2) joint angles or rates in the modes."""
-    return np.asarray(modes.gain @ np.einsum("kir,ki->r", modes.torque, joints[modes.link]))
+    return np.asarray(modes.gain[0] @ np.einsum("kir,ki->r", modes.torque, joints[modes.link]))
 
 
 def rung(model: Model, level: Level, mode: int, steps: int) -> np.ndarray:
@@ -57,10 +57,28 @@ def test_a_mode_rings_at_the_coupled_plants_frequency_and_damping(mode: int) -> 
         frequency_and_damping(rung(model, one, mode, 60 * stride)[::stride], stride * model.time_step)
         for one in (level, replace(level, modes=no_modes()))
     )
-    assert common[0] == pytest.approx(omega, rel=0.002)
+    # Kicks are of second order in the step.
+    assert common[0] == pytest.approx(omega, rel=(omega * model.time_step) ** 2 / 24.0)
     assert common[1] == pytest.approx(zeta, rel=0.02)
-    assert abs(alone[0] / omega - 1.0) > 10.0 * abs(common[0] / omega - 1.0)
-    print(mode, common, alone, omega, zeta)
+    assert abs(alone[1] / zeta - 1.0) > 2.0 * abs(common[1] / zeta - 1.0)
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+def test_modes_do_not_feed_motion_without_damping(seed: int) -> None:
+    model = build_model(random_tree(seed, material=Material(damping_ratio=0.0, wood_drag=1e-9)))
+    level = finest_level(model)
+    stepper, state = Stepper(level), rest_state(level, 1)
+    state.angles(0)[:] = 0.02 * np.random.default_rng(seed).standard_normal((model.link_count, 2))
+    calm = np.zeros((1, len(model.probe_position), 3), np.float32)
+    energy = np.empty(1800)
+    for look in range(len(energy)):
+        stepper.step(state, calm, calm, 20)
+        energy[look] = np.sum(state.angles(0) ** 2 / model.rods.compliance)
+    assert (np.diag(model.modes.gain[0]) > 0.0).all()
+    first, *_, last = np.array_split(energy, 10)
+    # Elastic energy alone comes and goes.
+    assert last.max() < 1.3 * first.max()
+    assert last.mean() > 0.4 * first.mean()
 
 
 def test_angles_in_the_modes_have_their_coordinates_and_no_others() -> None:
@@ -80,7 +98,7 @@ def test_links_that_are_not_stepped_take_no_part() -> None:
     links = np.union1d(links, modes.link[::2]).astype(np.int32)
     fewer = modes.among(links)
     assert set(links[fewer.link]) == set(modes.link) & set(links)
-    wanted = np.array([0.3, -0.2, 0.1, 0.05]) * (np.diag(fewer.gain) > 0.0)
+    wanted = np.array([0.3, -0.2, 0.1, 0.05]) * (np.diag(fewer.gain[0]) > 0.0)
     angles = np.zeros((len(links), 2))
     angles[fewer.link] = fewer.angle @ wanted
     assert np.any(wanted)
@@ -92,7 +110,7 @@ def test_links_that_are_not_stepped_take_no_part() -> None:
 @pytest.mark.parametrize("links", [1, 2])
 def test_plants_with_fewer_freedoms_than_modes(links: int) -> None:
     model = build_model(build_plant(straight(2.0, links, 0.02)))
-    assert np.count_nonzero(np.diag(model.modes.gain)) == min(2 * links, MODE_COUNT)
+    assert np.count_nonzero(np.diag(model.modes.gain[0])) == min(2 * links, MODE_COUNT)
     wind = np.full((1, len(model.probe_position), 3), 3.0, np.float32)
     stepper, state = Stepper(finest_level(model)), rest_state(finest_level(model), 1)
     stepper.step(state, wind, wind, 50)

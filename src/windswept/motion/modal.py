@@ -8,24 +8,29 @@ in the lowest modes is taken out, and stepped at the modes' own frequencies and 
 With K the stiffness and C = 1 / K the compliance of the joints, Phi the modes (L joints' angles by R) and
 T = K Phi the torques that hold them, the coordinates of any angles x in the modes are ::
 
-    modal(x) = G T' x,   G = (Phi' K Phi)^-1,   so that modal(Phi z) = z
+    modal(x) = G T' x,   G = (Phi' K Phi)^-1,   so that modal(Phi z) = z and P = Phi modal
 
-which is orthogonal in elastic energy, as modes are. In a step, joint j has the deviation y_j from its static angle and
-the rate v_j, and its own exact step is a_j y_j + b_j v_j. The modal part is stepped by the modes' A and B instead::
+projects on the modes, orthogonally in elastic energy as modes are to one another. Let joint j, for itself, accelerate
+by -w_j y_j, where y_j is its deviation from its static angle and w_j its frequency squared, and let W_r be those of the
+modes. Then what all joints have to accelerate by is -B y with ::
 
-    x_j  +=  sum_r Phi_jr [(A_r - a_j) modal(y)_r + (B_r - b_j) modal(v)_r]
+    B = (1 - P) w (1 - P) + Phi W modal  =  w + D,    D y = Phi (Q modal(y) - modal(w y)) - w Phi modal(y)
 
-and so are rates. Where y and v are zero nothing is added: static deflection stays exact, and rest stays rest.
-Nothing is remembered from step to step, so plants may change their level at any time.
+where Q = modal(w Phi) + W. Every joint takes its own step exactly, and then its rate is changed by -D y times the step.
+K D is symmetric, so this is the torque of a potential, and kicks by it neither feed nor drain the motion. Damping,
+c_j = 2 zeta omega, is shared out in the same way.
+
+Where y is zero nothing is added: static deflection stays exact, and rest stays rest. Nothing is remembered from step to
+step, so plants may change their level at any time.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from windswept.motion.exact_step import exact_step
 from windswept.motion.modes import natural_modes
 from windswept.motion.rods import Doubles, Rods
 from windswept.motion.skeleton import Skeleton
@@ -37,6 +42,8 @@ NEAR_ENOUGH = 1e-4
 """Relative error of a mode's frequency squared at which it is taken as found."""
 LEFT_OUT = 0.05
 """Share of each mode's elastic energy in the joints that are left out of it, those that turn least."""
+FASTEST = 1.0
+"""Radians a step beyond which a joint for itself is too fast to be told what the modes do."""
 LEAST_SHARE = 0.25
 """A mode of which a level's links hold less elastic energy, beyond what they hold of other modes, is left out."""
 
@@ -52,64 +59,88 @@ class Modes:
     torque: Floats
     """(K, 2, R) torques that hold them, T."""
     gain: Floats
-    """(R, R) G; rows and columns of zeros for modes that are left out."""
+    """(3, R, R) G, Q G and the same as Q G of damping; rows and columns of zeros for modes that are left out."""
+    own: Floats
+    """(K, 2) w of every link's joints (1/s^2) and c (1/s)."""
     frequency: Doubles
     """(R,) rad/s, ascending."""
     damping_ratio: Doubles
     """(R,) fraction of critical damping."""
-    step: Floats
-    """(R, 4) exact step, see exact_step.py."""
+    time_step: float
+    """s"""
 
     def among(self, links: Ints) -> Modes:
         """The same modes where only some links are stepped, numbered by their place in ``links`` (A,), ascending."""
         place = np.searchsorted(links, self.link)
-        own = links[np.minimum(place, len(links) - 1)] == self.link if len(links) else place < 0
-        return _modes(
-            place[own].astype(np.int32),
-            self.angle[own],
-            self.torque[own],
-            (self.frequency, self.damping_ratio, self.step),
-        )
+        is_own = links[np.minimum(place, len(links) - 1)] == self.link if len(links) else place < 0
+        return _taken_part(self, is_own, place[is_own].astype(np.int32))
 
 
-def plant_modes(skeleton: Skeleton, rods: Rods, lag: Doubles, time_step: float) -> Modes:
+def plant_modes(
+    skeleton: Skeleton, rods: Rods, frequency: Doubles, damping_ratio: Doubles, time_step: float
+) -> Modes:
     """The MODE_COUNT lowest modes of a plant.
 
     Args:
         skeleton: the rest skeleton.
         rods: mass and compliance.
-        lag: (L,) damping of every joint over its stiffness, s.
+        frequency: (L,) of every joint for itself, rad/s.
+        damping_ratio: (L,) of every joint.
         time_step: fixed inner step, s.
     """
-    omega, shape = natural_modes(skeleton, rods, MODE_COUNT, NEAR_ENOUGH)
+    omega, angle = natural_modes(skeleton, rods, MODE_COUNT, NEAR_ENOUGH)
     # A single link has two freedoms: modes of no shape have no energy, and are left out.
     lacking = MODE_COUNT - len(omega)
-    omega, shape = np.pad(omega, (0, lacking), "edge"), np.pad(shape, ((0, 0), (0, 0), (0, lacking)))
-    torque = shape / rods.compliance[:, :, None]
-    energy = np.sum(torque * shape, axis=1)
-    damping = np.minimum(0.5 * omega * (lag @ energy), 0.95)
-    link = _most_moved(energy)
-    steps = omega, damping, exact_step(omega, damping, time_step).astype(np.float32)
-    return _modes(link, shape[link], torque[link].astype(np.float32), steps)
+    omega, angle = np.pad(omega, (0, lacking), "edge"), np.pad(angle, ((0, 0), (0, 0), (0, lacking)))
+    torque = angle / rods.compliance[:, :, None]
+    energy = np.sum(torque * angle, axis=1)
+    lag = 2.0 * damping_ratio / frequency
+    whole = Modes(
+        link=np.arange(len(frequency), dtype=np.int32),
+        angle=angle,
+        torque=torque.astype(np.float32),
+        gain=np.zeros((3, MODE_COUNT, MODE_COUNT), np.float32),
+        own=np.column_stack([frequency**2, 2.0 * damping_ratio * frequency]).astype(np.float32),
+        frequency=omega,
+        damping_ratio=np.minimum(0.5 * omega * (lag @ energy), 0.95),
+        time_step=time_step,
+    )
+    link = _most_moved(np.where((frequency * time_step < FASTEST)[:, None], energy, 0.0))
+    return _taken_part(whole, link, link)
 
 
 def no_modes() -> Modes:
     """For what moves joint by joint."""
-    nowhere, zeros = np.zeros((0, 2, MODE_COUNT)), np.zeros(MODE_COUNT)
-    steps = zeros, zeros, np.zeros((MODE_COUNT, 4), np.float32)
-    return _modes(np.zeros(0, np.int32), nowhere, nowhere.astype(np.float32), steps)
+    return Modes(
+        link=np.zeros(0, np.int32),
+        angle=np.zeros((0, 2, MODE_COUNT)),
+        torque=np.zeros((0, 2, MODE_COUNT), np.float32),
+        gain=np.zeros((3, MODE_COUNT, MODE_COUNT), np.float32),
+        own=np.zeros((0, 2), np.float32),
+        frequency=np.zeros(MODE_COUNT),
+        damping_ratio=np.zeros(MODE_COUNT),
+        time_step=0.0,
+    )
 
 
-def _modes(link: Ints, angle: Doubles, torque: Floats, steps: tuple[Doubles, Doubles, Floats]) -> Modes:
-    gain = _gain(np.einsum("kir,kis->rs", torque, angle))
-    return Modes(link, angle, torque, gain.astype(np.float32), *steps)
+def _taken_part(modes: Modes, chosen: Ints | NDArray[np.bool_], link: Ints) -> Modes:
+    """The modes in some of their links, which have the numbers given."""
+    angle, torque, own = modes.angle[chosen], modes.torque[chosen], modes.own[chosen]
+    overlap = np.einsum("kir,kis->rs", torque, angle)
+    of_joints = np.einsum("kir,km,kis->mrs", torque, own, angle)
+    of_modes = np.stack([modes.frequency**2, 2.0 * modes.damping_ratio * modes.frequency])
+    gain = _gain(overlap)
+    quickening = (gain @ of_joints + of_modes[:, :, None] * np.eye(MODE_COUNT)) @ gain
+    gains = np.concatenate([gain[None], quickening]).astype(np.float32)
+    return replace(modes, link=link, angle=angle, torque=torque, own=own, gain=gains)
 
 
 def _most_moved(energy: Doubles) -> Ints:
     """(K,) the fewest links that hold all but LEFT_OUT of every mode's (L, R) energy."""
     order = np.argsort(-energy, axis=0)
-    held = np.cumsum(np.take_along_axis(energy, order, axis=0), axis=0)
-    needed = held - np.take_along_axis(energy, order, axis=0) < (1.0 - LEFT_OUT) * held[-1]
+    share = np.take_along_axis(energy, order, axis=0)
+    before = np.cumsum(share, axis=0) - share
+    needed = (before < (1.0 - LEFT_OUT) * share.sum(axis=0)) & (share > 0.0)
     return np.unique(order[needed]).astype(np.int32)
 
 
@@ -121,6 +152,6 @@ def _gain(overlap: Doubles) -> Doubles:
         known = overlap[kept, mode]
         if overlap[mode, mode] - known @ np.linalg.solve(both, known) >= LEAST_SHARE:
             kept.append(mode)
-    gain = np.zeros_like(overlap)
-    gain[np.ix_(kept, kept)] = np.linalg.inv(overlap[np.ix_(kept, kept)])
+    gain = np.zeros_like(overlap, dtype=np.float64)
+    gain[np.ix_(kept, kept)] = np.linalg.inv(overlap[np.ix_(kept, kept)].astype(np.float64))
     return gain

@@ -93,8 +93,14 @@ def build_model(plant: Plant, time_step: float = TIME_STEP, propagation: Doubles
         constants=np.empty((0, CONSTANT_COUNT), np.float32),
         modes=no_modes(),
     )
-    modes = plant_modes(skeleton, rods, joint_lag(model), time_step)
-    return replace(model, constants=pack_constants(model), modes=modes)
+    return replace(model, constants=pack_constants(model), modes=modes_of(model))
+
+
+def modes_of(model: Model) -> Modes:
+    """The modes of a model's plant, beside the frequencies and damping that its joints have for themselves."""
+    stem = model.skeleton.stem
+    own = model.stem_frequency[stem], model.damping_ratio[stem]
+    return plant_modes(model.skeleton, model.rods, *own, model.time_step)
 
 
 def joint_lag(model: Model) -> Doubles:

@@ -7,7 +7,7 @@ One step, for one placement::
     drag                   force of the wind on the link, from the air's velocity relative to it
     load    leaf to root   force F and moment M of everything beyond the joint
     joint                  towards the angle compliance x torque, by the exact damped-oscillator step
-    modes                  what of that motion lies in the lowest modes of the plant goes as they do, see modal.py
+    modes                  what of that motion lies in the lowest modes of the plant is made to go as they do: modal.py
 
 `springs_plain.py` is the same in NumPy for one placement, and the tests hold the two together.
 """
@@ -70,9 +70,9 @@ _SLOT = np.uintp(12 * WIDTH)
 """Scratch of a depth: angular velocity, joint velocity, link vector, its rate (3 each)."""
 _SUM = np.uintp(6 * WIDTH)
 """Scratch of a depth: summed force and moment of the links hanging there."""
+_EACH: Any = np.uintp(MODE_COUNT * WIDTH)
 _MODES = 4 * MODE_COUNT * WIDTH
-"""Scratch of the modes: deviation and rate of each, then angle and rate of each a step later."""
-_RATES: Any = np.uintp(MODE_COUNT * WIDTH)
+"""Scratch of the modes: sums over the joints of deviation, deviation x w, rate and rate x c, each for every mode."""
 _THRESHOLD: Any = _F(REST_THRESHOLD)
 _LIMIT: Any = _F(MAX_ANGLE)
 _STOP: Any = _F(2.0 * MAX_ANGLE)
@@ -94,7 +94,7 @@ def drag_force(c, link, wind, v, d):  # type: ignore[no-untyped-def]
 
 @njit(fastmath=FAST_MATH, forceinline=True)
 def oscillate(c, link, torque, angle, velocity, compliance, tension):  # type: ignore[no-untyped-def]
-    """The exact step of one spring towards compliance x torque, at most MAX_ANGLE; and how far it deviated from there.
+    """The exact step of one spring towards compliance x torque, at most MAX_ANGLE; and how far from there it gets.
 
     ``tension`` is 1 but in storms, where the pull of the air on a limp branch is a stiffer spring than its wood:
     then it slows the way to the equilibrium, and does not move the equilibrium.
@@ -103,7 +103,8 @@ def oscillate(c, link, torque, angle, velocity, compliance, tension):  # type: i
     target = angle - y
     moved = target + y * c[link, STEP_XX] + velocity * c[link, STEP_XV]
     swung = y * c[link, STEP_VX] + velocity * c[link, STEP_VV]
-    return settled(clamped(moved, _STOP), _THRESHOLD), settled(swung, _THRESHOLD), y
+    angle = settled(clamped(moved, _STOP), _THRESHOLD)
+    return angle, settled(swung, _THRESHOLD), angle - target
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
@@ -168,11 +169,11 @@ def _pose_and_drag(  # type: ignore[no-untyped-def]
 
 @njit(fastmath=FAST_MATH, forceinline=True)
 def _load_and_swing(  # type: ignore[no-untyped-def]
-    c, depth, probe, modal_link, modal_torque, joints, a, sums, modal
+    c, depth, probe, modal_link, modal_torque, modal_own, joints, a, sums, modal
 ):
     """Leaf to root: sums force and moment of every subtree, steps its joint, and projects it on the modes."""
     three, four = _W * np.uintp(3), _W * np.uintp(4)
-    for k in range(2 * MODE_COUNT):
+    for k in range(4 * MODE_COUNT):
         store(a, modal + np.uintp(k) * _W, load(joints, np.uintp(0)) * _F(0.0))
     k = len(modal_link) - 1
     for i in range(len(depth)):
@@ -199,55 +200,53 @@ def _load_and_swing(  # type: ignore[no-untyped-def]
         store3(joints, joint, (angle_1, rate_1, angle_2))
         store(joints, joint + three, rate_2)
         if k >= 0 and modal_link[k] == len(depth) - 1 - i:
+            w, damping = modal_own[k, 0], modal_own[k, 1]
             for r in range(MODE_COUNT):
                 t_1, t_2, at = modal_torque[k, 0, r], modal_torque[k, 1, r], modal + np.uintp(r) * _W
-                store(a, at, load(a, at) + y_1 * t_1 + y_2 * t_2)
-                store(a, at + _RATES, load(a, at + _RATES) + v_1 * t_1 + v_2 * t_2)
+                y, v = y_1 * t_1 + y_2 * t_2, rate_1 * t_1 + rate_2 * t_2
+                store(a, at, load(a, at) + y)
+                store(a, at + _EACH, load(a, at + _EACH) + y * w)
+                store(a, at + _EACH + _EACH, load(a, at + _EACH + _EACH) + v)
+                store(a, at + _EACH + _EACH + _EACH, load(a, at + _EACH + _EACH + _EACH) + v * damping)
             k -= 1
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def _step_modes(gain, step, a, modal):  # type: ignore[no-untyped-def]
-    """Deviation and rate in every mode, from their sums over the joints; and angle and rate a step later."""
-    for r in range(MODE_COUNT):
-        y = load(a, modal) * gain[r, 0]
-        v = load(a, modal + _RATES) * gain[r, 0]
-        for s in range(1, MODE_COUNT):
-            at = modal + np.uintp(s) * _W
-            y, v = y + load(a, at) * gain[r, s], v + load(a, at + _RATES) * gain[r, s]
-        later = modal + _RATES + _RATES + np.uintp(r) * _W
-        store(a, later, y)
-        store(a, later + _RATES, v)
-    for r in range(MODE_COUNT):
-        here = modal + np.uintp(r) * _W
-        y, v = load(a, here + _RATES + _RATES), load(a, here + _RATES + _RATES + _RATES)
-        store(a, here, y)
-        store(a, here + _RATES, v)
-        store(a, here + _RATES + _RATES, y * step[r, 0] + v * step[r, 1])
-        store(a, here + _RATES + _RATES + _RATES, y * step[r, 2] + v * step[r, 3])
+def _row_times(gain, which, r, v):  # type: ignore[no-untyped-def]
+    """Row of a matrix of the modes times four registers."""
+    row = gain[which, r]
+    return v[0] * row[0] + v[1] * row[1] + v[2] * row[2] + v[3] * row[3]
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def _swing_modes(c, modal_link, modal_torque, joints, a, modal):  # type: ignore[no-untyped-def]
-    """Exchanges what every joint's own step made of the modes' part for what the modes' step makes of it."""
+def _share_out(gain, a, modal):  # type: ignore[no-untyped-def]
+    """From the sums over the joints: what every mode adds to all joints, and its deviation and rate."""
+    for half in range(2):
+        first = modal + np.uintp(2 * half) * _EACH
+        together, each = load4(a, first), load4(a, first + _EACH)
+        for r in range(MODE_COUNT):
+            at = first + np.uintp(r) * _W
+            store(a, at, _row_times(gain, 1 + half, r, together) - _row_times(gain, 0, r, each))
+            store(a, at + _EACH, _row_times(gain, 0, r, together))
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def _kick(c, modal_link, modal_torque, modal_own, time_step, joints, a, modal):  # type: ignore[no-untyped-def]
+    """Changes the rates of all joints that take part by what the modes ask of them."""
     for k in range(len(modal_link)):
-        link = np.uintp(modal_link[k])
-        joint = link * _W * np.uintp(4)
+        joint = np.uintp(modal_link[k]) * _W * np.uintp(4) + _W
         for axis in range(2):
-            soft = c[link, COMPLIANCE_1 + axis]
-            y = load(a, modal) * _F(0.0)
-            v, x_after, v_after = y, y, y
+            push = load(a, modal) * _F(0.0)
             for r in range(MODE_COUNT):
-                share, at = soft * modal_torque[k, axis, r], modal + np.uintp(r) * _W
-                y = y + load(a, at) * share
-                v = v + load(a, at + _RATES) * share
-                x_after = x_after + load(a, at + _RATES + _RATES) * share
-                v_after = v_after + load(a, at + _RATES + _RATES + _RATES) * share
-            x_after = x_after - y * c[link, STEP_XX] - v * c[link, STEP_XV]
-            v_after = v_after - y * c[link, STEP_VX] - v * c[link, STEP_VV]
-            moved, swung = load(joints, joint) + x_after, load(joints, joint + _W) + v_after
-            store(joints, joint, settled(clamped(moved, _STOP), _THRESHOLD))
-            store(joints, joint + _W, settled(swung, _THRESHOLD))
+                at = modal + np.uintp(r) * _W
+                whole = load(a, at) + load(a, at + _EACH + _EACH)
+                own = (
+                    load(a, at + _EACH) * modal_own[k, 0]
+                    + load(a, at + _EACH + _EACH + _EACH) * modal_own[k, 1]
+                )
+                push = push + (own - whole) * modal_torque[k, axis, r]
+            rate = load(joints, joint) + push * (time_step * c[np.uintp(modal_link[k]), COMPLIANCE_1 + axis])
+            store(joints, joint, settled(rate, _THRESHOLD))
             joint += _W + _W
 
 
@@ -261,8 +260,9 @@ def _step_tiles(  # type: ignore[no-untyped-def]
     group_probe,
     modal_link,
     modal_torque,
+    modal_own,
     modal_gain,
-    modal_step,
+    time_step,
     joints,
     groups,
     wind,
@@ -285,10 +285,12 @@ def _step_tiles(  # type: ignore[no-untyped-def]
             _pose_and_drag(
                 c, depth, probe, g, group_start, group_probe, joints[tile], groups[tile], now, a, slots
             )
-            _load_and_swing(c, depth, probe, modal_link, modal_torque, joints[tile], a, sums, modal)
+            _load_and_swing(
+                c, depth, probe, modal_link, modal_torque, modal_own, joints[tile], a, sums, modal
+            )
             if len(modal_link) > 0:
-                _step_modes(modal_gain, modal_step, a, modal)
-                _swing_modes(c, modal_link, modal_torque, joints[tile], a, modal)
+                _share_out(modal_gain, a, modal)
+                _kick(c, modal_link, modal_torque, modal_own, time_step, joints[tile], a, modal)
 
 
 def _scratch(level: Level) -> tuple[Floats, int, int]:
@@ -343,8 +345,9 @@ class Stepper:
             level.group_probe,
             level.modes.link,
             level.modes.torque,
+            level.modes.own,
             level.modes.gain,
-            level.modes.step,
+            np.float32(level.modes.time_step),
             state.joints.reshape(tiles, -1),
             state.groups.reshape(tiles, -1),
             wind,

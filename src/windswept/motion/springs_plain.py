@@ -88,28 +88,26 @@ def step_plain(
     y = (angles - target) / np.maximum(np.linalg.norm(force, axis=1) * tension_per_force(model), 1.0)[:, None]
     moved = np.clip(angles - y + xx * y + xv * velocities, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE)
     swung = vx * y + vv * velocities
-    change, quickening = modal_correction(model, y, velocities, coefficients)
-    return np.clip(moved + change, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE), swung + quickening
+    return moved, swung + modal_kick(model, moved - angles + y, swung)
 
 
-def modal_correction(
-    model: Model, deviation: Doubles, velocities: Doubles, own: Doubles
-) -> tuple[Doubles, Doubles]:
-    """(L, 2) what the modes' own step adds to angles and to velocities; see modal.py.
+def modal_kick(model: Model, deviation: Doubles, velocities: Doubles) -> Doubles:
+    """(L, 2) what the modes change of the velocities, rad/s; see modal.py.
 
     Args:
         model: the plant's constants.
         deviation: (L, 2) angles less static angles, rad.
         velocities: (L, 2) rad/s.
-        own: (L, 4) the joints' exact step.
     """
     modes, links = model.modes, model.modes.link
-    change, quickening = np.zeros_like(deviation), np.zeros_like(deviation)
-    y = modes.gain @ np.einsum("kir,ki->r", modes.torque, deviation[links])
-    v = modes.gain @ np.einsum("kir,ki->r", modes.torque, velocities[links])
-    xx, xv, vx, vv = modes.step.T
-    joint_y, joint_v = modes.angle @ y, modes.angle @ v
-    a, b, c, d = own[links].T[:, :, None]
-    change[links] = modes.angle @ (xx * y + xv * v) - a * joint_y - b * joint_v
-    quickening[links] = modes.angle @ (vx * y + vv * v) - c * joint_y - d * joint_v
-    return change, quickening
+    gain, of_stiffness, of_damping = modes.gain.astype(np.float64)
+    own = modes.own[:, None].astype(np.float64)
+    kick = np.zeros_like(deviation)
+    for joint, rate, quickening in (
+        (deviation[links], own[..., 0], of_stiffness),
+        (velocities[links], own[..., 1], of_damping),
+    ):
+        together, each = (np.einsum("kir,ki->r", modes.torque, part) for part in (joint, rate * joint))
+        kick[links] -= modes.angle @ (quickening @ together - gain @ each)
+        kick[links] += rate * (modes.angle @ (gain @ together))
+    return modes.time_step * kick

@@ -24,12 +24,14 @@ const GROUP_REST_THRESHOLD = 1e-7;
 const TINY = 1e-30;
 const RECORD = 5u;   // rows of a link in the stack
 const MODES = 4u;    // MODE_COUNT of motion/modal.py
-const MODE_RECORD = 3u;   // rows of the modes in the stack, beyond all links
+const MODE_RECORD = 5u;   // rows of the modes in the stack, beyond all links
 
-// What the joints that are done add up to in each mode: deviation from the static angle, rate; and which comes next.
+// Sums over the joints that are done, for each mode, of the names in motion/modal.py; and which link comes next.
 struct Modal {
-    deviation: vec4f,
-    rate: vec4f,
+    y: vec4f,
+    wy: vec4f,
+    v: vec4f,
+    cv: vec4f,
     next: u32,
 }
 
@@ -146,12 +148,13 @@ fn bounded(angle: f32, rate: f32) -> vec2f {
     return select(after, vec2f(0.0), abs(after) < vec2f(REST_THRESHOLD));
 }
 
-// The exact step of one spring (angle, rate) towards compliance x torque, and how far it deviated from there; see
-// springs.py on the tension.
+// The exact step of one spring (angle, rate) towards compliance x torque, and how far from there it gets; see springs.py
+// on the tension.
 fn oscillate(link: Link, angle: f32, rate: f32, bend: f32, tension: f32) -> vec3f {
     let y = (angle - clamp(bend, -MAX_ANGLE, MAX_ANGLE)) / tension;
-    let swung = angle - y + y * link.swing.x + rate * link.swing.y;
-    return vec3f(bounded(swung, y * link.swing.z + rate * link.swing.w), y);
+    let goal = angle - y;
+    let after = bounded(goal + y * link.swing.x + rate * link.swing.y, y * link.swing.z + rate * link.swing.w);
+    return vec3f(after, after.x - goal);
 }
 
 fn mode_row(row: u32) -> vec4f {
@@ -165,47 +168,40 @@ fn swing_joint(link: Link, number: u32, mine: vec2u, row: u32, body: Body, paren
     let first = oscillate(link, joint.x, joint.y, dot(torque, link.axis_1.xyz) * link.axis_1.w, tension);
     let second = oscillate(link, joint.z, joint.w, dot(torque, link.axis_2.xyz) * link.axis_2.w, tension);
     state[row] = vec4f(first.xy, second.xy);
-    let entry = mine.x + 2u * MODES + 3u * modal.next;
+    let entry = mine.x + 3u * MODES + 3u * modal.next;
     if modal.next < mine.y && modes[entry].x == number {
-        let about_1 = mode_row(entry + 1u);
-        let about_2 = mode_row(entry + 2u);
-        modal.deviation += first.z * about_1 + second.z * about_2;
-        modal.rate += joint.y * about_1 + joint.w * about_2;
-        modal.next++;
+        let own = mode_row(entry);
+        let y = first.z * mode_row(entry + 1u) + second.z * mode_row(entry + 2u);
+        let v = first.y * mode_row(entry + 1u) + second.y * mode_row(entry + 2u);
+        modal = Modal(modal.y + y, modal.wy + own.y * y, modal.v + v, modal.cv + own.z * v, modal.next + 1u);
     }
 }
 
-// Exchanges what every joint's own step made of the modes' part for what the modes' step makes of it; see modal.py.
-fn swing_modes(rung: Rung, mine: vec2u, column: Column) {
-    var y: vec4f;
-    var v: vec4f;
-    for (var r = 0u; r < MODES; r++) {
-        let gain = mode_row(mine.x + r);
-        y[r] = dot(gain, modal.deviation);
-        v[r] = dot(gain, modal.rate);
-    }
-    let step = mine.x + MODES;
-    let angle_after = mode_row(step) * y + mode_row(step + 1u) * v;
-    let rate_after = mode_row(step + 2u) * y + mode_row(step + 3u) * v;
+// Row-by-row product with one of the matrices of `Modes.gain`.
+fn gained(row: u32, sum: vec4f) -> vec4f {
+    return vec4f(
+        dot(mode_row(row), sum), dot(mode_row(row + 1u), sum), dot(mode_row(row + 2u), sum), dot(mode_row(row + 3u), sum),
+    );
+}
+
+// Changes the rates of all joints that take part by what the modes ask of them.
+fn kick(rung: Rung, mine: vec2u, column: Column) {
+    let whole = gained(mine.x + MODES, modal.y) - gained(mine.x, modal.wy)
+        + gained(mine.x + 2u * MODES, modal.v) - gained(mine.x, modal.cv);
+    let y = gained(mine.x, modal.y);
+    let v = gained(mine.x, modal.v);
     for (var k = 0u; k < mine.y; k++) {
-        let entry = mine.x + 2u * MODES + 3u * k;
+        let entry = mine.x + 3u * MODES + 3u * k;
         let number = modes[entry].x;
+        let own = mode_row(entry);
         let link = links[rung.links.x + number];
         let row = column.state + number * column.stride;
-        let about_1 = link.axis_1.w * mode_row(entry + 1u);
-        let about_2 = link.axis_2.w * mode_row(entry + 2u);
-        let own_1 = vec2f(dot(about_1, y), dot(about_1, v));
-        let own_2 = vec2f(dot(about_2, y), dot(about_2, v));
+        let push = own.w * (own.y * y + own.z * v - whole);
         let joint = state[row];
-        let first = bounded(
-            joint.x + dot(about_1, angle_after) - dot(link.swing.xy, own_1),
-            joint.y + dot(about_1, rate_after) - dot(link.swing.zw, own_1),
+        state[row] = vec4f(
+            bounded(joint.x, joint.y + link.axis_1.w * dot(mode_row(entry + 1u), push)),
+            bounded(joint.z, joint.w + link.axis_2.w * dot(mode_row(entry + 2u), push)),
         );
-        let second = bounded(
-            joint.z + dot(about_2, angle_after) - dot(link.swing.xy, own_2),
-            joint.w + dot(about_2, rate_after) - dot(link.swing.zw, own_2),
-        );
-        state[row] = vec4f(first, second);
     }
 }
 
@@ -227,7 +223,10 @@ fn walk(rung: Rung, mine: vec2u, column: Column, late: f32) {
     } else {
         top += u32(links[rung.links.x + FIRST].more.w) * RECORD * stride;
         body = take_up(top, stride);
-        modal = Modal(stack[held], stack[held + stride], u32(stack[held + 2u * stride].x));
+        modal = Modal(
+            stack[held], stack[held + stride], stack[held + 2u * stride], stack[held + 3u * stride],
+            u32(stack[held + 4u * stride].x),
+        );
         group = links[rung.links.x + FIRST - 1u].rows.z;
     }
     let end = FIRST + min(MOST, rung.links.y - FIRST);
@@ -254,11 +253,13 @@ fn walk(rung: Rung, mine: vec2u, column: Column, late: f32) {
     }
     if end < rung.links.y {
         lay_down(top, stride, body);
-        stack[held] = modal.deviation;
-        stack[held + stride] = modal.rate;
-        stack[held + 2u * stride] = vec4f(f32(modal.next), 0.0, 0.0, 0.0);
+        stack[held] = modal.y;
+        stack[held + stride] = modal.wy;
+        stack[held + 2u * stride] = modal.v;
+        stack[held + 3u * stride] = modal.cv;
+        stack[held + 4u * stride] = vec4f(f32(modal.next), 0.0, 0.0, 0.0);
     } else {
-        swing_modes(rung, mine, column);
+        kick(rung, mine, column);
     }
 }
 

@@ -9,15 +9,15 @@ from windswept.motion import Level
 from windswept.motion.modal import MODE_COUNT
 from windswept.plants.plant import Ints
 
-HEADER, ROWS_PER_LINK = 2 * MODE_COUNT, 3
+HEADER, ROWS_PER_LINK = 3 * MODE_COUNT, 3
 """Rows of ``modes`` that every level has, and every link that takes part: as in ``springs.wgsl``."""
 
 
 def mode_rows(levels: list[Level]) -> NDArray[np.uint32]:
     """(n, 4) words: for each level where its rows begin and how many links take part; then those rows.
 
-    A level's rows are the gain, row by row; the exact step of all modes, coefficient by coefficient; and for every link
-    its number and the modes' torques about its two axes.
+    A level's rows are the three matrices of ``Modes.gain``, row by row; and for every link its number, w, c and the
+    inner step, and the modes' torques about its two axes.
     """
     links = np.array([len(level.modes.link) for level in levels], np.int64)
     size = HEADER + ROWS_PER_LINK * links
@@ -28,10 +28,12 @@ def mode_rows(levels: list[Level]) -> NDArray[np.uint32]:
 
 def _rows_of(level: Level) -> NDArray[np.uint32]:
     modes = level.modes
-    header = np.concatenate([modes.gain, modes.step.T]).astype(np.float32).view(np.uint32)
+    header = modes.gain.reshape(-1, MODE_COUNT).view(np.uint32)
     order = np.argsort(leaving(level.parent)[modes.link], kind="stable")
     rows = np.zeros((len(order), ROWS_PER_LINK, 4), np.uint32)
     rows[:, 0, 0] = modes.link[order]
+    rows[:, 0, 1:3] = modes.own[order].view(np.uint32)
+    rows[:, 0, 3] = np.float32(modes.time_step).view(np.uint32)
     rows[:, 1:] = np.ascontiguousarray(modes.torque[order], np.float32).view(np.uint32)
     return np.concatenate([header, rows.reshape(-1, 4)])
 

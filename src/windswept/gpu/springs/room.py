@@ -14,7 +14,7 @@ from windswept.motion import Level
 Counts = NDArray[np.int64]
 RECORD = 5
 """Rows of a link in the stack: RECORD of ``springs.wgsl``."""
-MODE_RECORD = 3
+MODE_RECORD = 5
 """Rows of the modes beyond them: MODE_RECORD of ``springs.wgsl``."""
 ROOM_BYTES = 1 << 30
 """Of a buffer at most, whatever the card could bind, if the coarsest levels need no more."""
