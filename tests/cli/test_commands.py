@@ -10,6 +10,7 @@ from PIL import Image
 
 from command_line import run, write_scene
 from windswept.cli import COMMANDS
+from windswept.plants.underbrush import underbrush_names
 
 
 @pytest.fixture
@@ -47,6 +48,39 @@ def test_species_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
     assert {"quaking_aspen", "black_tupelo", "weeping_willow", "california_black_oak"} <= set(names)
 
 
+def test_underbrush_is_marked_where_species_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("species", "--json") == 0
+    marked = {one["name"] for one in json.loads(capsys.readouterr().out) if one["underbrush"]}
+    assert marked == set(underbrush_names())
+    assert run("species") == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert {line.split()[0] for line in lines if line.split()[1] == "underbrush,"} == marked
+
+
+def test_a_sheet_says_what_is_not_on_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("windswept.studies.species_sheet.draw_sheet", lambda *_, **__: None)
+    assert run("species", "--sheet", tmp_path / "sheet.png") == 0
+    said = capsys.readouterr().err
+    assert all(name in said for name in underbrush_names())
+
+
+def test_reproduce_makes_the_folder_that_it_is_given(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("windswept.studies.endo.endo", lambda folder, say: [])
+    folder = tmp_path / "new" / "pictures"
+    assert run("reproduce", "endo", "-o", folder, "--json") == 0
+    assert folder.is_dir()
+    assert capsys.readouterr().out == "[]\n"
+    (tmp_path / "file").write_text("")
+    for place in (tmp_path / "file", tmp_path / "file" / "pictures"):
+        assert run("reproduce", "endo", "-o", place) == 2
+        said = f"windswept: --output = '{place}': expected a folder, not a file\n"
+        assert capsys.readouterr().err == said
+
+
 def test_levels_reports_every_level(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("levels", "hazel", "--seconds", 1, "--json") == 0
     report = json.loads(capsys.readouterr().out)
@@ -70,10 +104,14 @@ def test_render_draws_a_picture_and_a_video(
 ) -> None:
     picture, video = tmp_path / "a.png", tmp_path / "a.mp4"
     assert run("render", small_scene, "-o", picture, "--size", "96x64", "--json") == 0
-    assert json.loads(capsys.readouterr().out)["plants"] == 1
+    assert json.loads(capsys.readouterr().out)["plants"] == 1  # nothing else is on stdout
     with Image.open(picture) as image:
         assert image.size == (96, 64)
     assert run("render", small_scene, "-o", video, "--size", "96x64") == 0
+    said = capsys.readouterr()
+    assert said.out == f"wrote {video}\n"
+    assert "drawing a.mp4" in said.err.splitlines()
+    assert "" not in said.err.splitlines()
     assert video.stat().st_size > 500
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.mp4", "a.png", "small.toml"]
 
@@ -101,6 +139,13 @@ def test_doctor_names_the_adapter(capsys: pytest.CaptureFixture[str]) -> None:
         ("render", "hazel", "-o", "x.png", "--at", "nan"),
         ("render", "hazel", "-o", "x.mp4", "--duration", "nan"),
         ("render", "hazel", "-o", "x.mp4", "--seed", "2147483648"),
+        ("render", "hazel", "-o", "x.png", "--duration", "3"),
+        ("render", "hazel", "-o", "x.mp4", "--at", "3"),
+        ("render", "hazel", "-o", ""),
+        ("grow", "hazel", "--leaf-area", "5"),
+        ("grow", "common_poppy"),
+        ("reproduce", "endo", "--links", "5000"),
+        ("reproduce", "beaudoin", "-o", "/proc/pictures", "--links", "1000"),
         ("levels", "hazel", "--seconds", "nan"),
         ("levels", "hazel", "--seed", "2147483648"),
         ("species", "--sheet", "no/folder/x.png"),
@@ -155,3 +200,26 @@ def test_levels_are_drawn_and_have_errors_in_the_metrics_unit(
     assert report["levels"][1]["bound_m_s"] >= report["levels"][1]["measured_p95_m_s"] > 0.0
     assert report["levels"][1]["distance_m"] is None
     assert picture.stat().st_size > 5_000
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (
+            ("render", "hazel", "-o", "x.gif"),
+            "--output = 'x.gif': expected a path that ends in .png, .mp4 or",
+        ),
+        (("render", "hazel", "-o", "/no/x.png"), "--output = '/no/x.png': expected a folder that exists"),
+        (("render", "hazel", "-o", "x.png", "--duration", "3"), "--duration = 3.0: expected a video"),
+        (("render", "hazel", "-o", "x.mp4", "--at", "3"), "--at = 3.0: expected a picture"),
+        (("levels", "hazel", "--plot", "x.gif"), "--plot = 'x.gif': expected a path that ends in .png"),
+        (("species", "--sheet", "x.bmp"), "--sheet = 'x.bmp': expected a path that ends in .png"),
+        (("reproduce", "endo", "--links", "5000"), "--links = 5000: expected beaudoin as the paper"),
+        (("reproduce", "endo", "-o", ""), "--output = '': expected the path of a folder"),
+    ],
+)
+def test_the_option_at_fault_is_named(
+    arguments: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(*arguments) == 2
+    assert capsys.readouterr().err.startswith(f"windswept: {said}")

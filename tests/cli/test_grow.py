@@ -64,11 +64,22 @@ def test_a_scan_in_leaf_and_bare(capsys, tmp_path) -> None:
     assert bare["import_report"]["repaired"] == ["axes normalised (5)"]
 
 
+def test_a_scan_says_how_many_cylinders_it_has(capsys, tmp_path) -> None:
+    for count, said in ((1, "scanned cylinders: 1 row taken"), (10, "scanned cylinders: 10 rows taken")):
+        scan = tmp_path / "pole.csv"
+        scan.write_text("".join(f"0.05,1,0,0,{i},0,0,1,{i}\n" for i in range(count)))
+        main(["grow", str(scan)])
+        assert said in capsys.readouterr().err.splitlines()
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["hazel", "-o", "plant.png"], "plant.png: expected a file that ends in one of .npz, .toml, .obj"),
-        (["hazel", "-o", "none/plant.npz"], "none/plant.npz = 'none': expected a folder that exists"),
+        (
+            ["hazel", "-o", "plant.png"],
+            "--output = 'plant.png': expected a path that ends in .npz, .toml or .obj",
+        ),
+        (["hazel", "-o", "none/plant.npz"], "--output = 'none/plant.npz': expected a folder that exists"),
         (["hazle"], "hazle: expected a built-in species or grammar, or a file: did you mean hazel?"),
         (["none.xml"], "none.xml: expected a file that exists"),
         (["hazel", "--seed", "2147483648"], "Invalid value for '--seed': 2147483648 is not in the range"),
@@ -78,6 +89,9 @@ def test_a_scan_in_leaf_and_bare(capsys, tmp_path) -> None:
             "Invalid value for '--leaf-area': -2.0 is not in the range x>=0.0",
         ),
         (["pole.csv", "--leaf-area", "nan"], "Invalid value for '--leaf-area': nan is not a finite number"),
+        (["hazel", "--seed", "abc"], "Invalid value for '--seed': 'abc' is not a valid whole number."),
+        (["pole.csv", "--leaf-area", "abc"], "Invalid value for '--leaf-area': 'abc' is not a valid number."),
+        (["hazel", "--leaf-area", "5"], "leaf area = 5.0: expected a scan (.csv, .mat) as the source"),
         (["pole.csv", "-o", "pole.toml"], "pole.csv: expected a source that is a species"),
     ],
 )

@@ -42,7 +42,7 @@ def test_a_simulation_on_the_card_starts_again_on_the_cpu(
     span = ["--at", "0.1"] if ending == "png" else ["--duration", "0.1"]
     main(["render", "hazel", "-o", str(film), "--size", "48x32", *span, "--gpu", "--json"])
     said = capsys.readouterr()
-    assert "the graphics card was lost while drawing pictures" in said.err
+    assert "the graphics card was lost while" in said.err
     assert said.err.count("starting again on the CPU") == 1
     assert json.loads(said.out)["steps_per_second"] > 0
     assert film.exists()

@@ -119,7 +119,8 @@ def test_constants_of_the_walk_agree_with_the_shader(line):
 
 
 @pytest.mark.parametrize(
-    "name", ["STOP_ANGLE", "STOP_STIFFNESS", "MOST_ANGLE", "PULL_WEIGHT", "RATE_LEAD", "REST_THRESHOLD"]
+    "name",
+    ["STOP_ANGLE", "STOP_STIFFNESS", "STOP_EDGE", "PULL_KNEE", "MOST_ANGLE", "RATE_LEAD", "REST_THRESHOLD"],
 )
 def test_constants_of_coupled_links_agree_with_the_shader(name):
     line = f"const {name} = {getattr(constants, name)};"

@@ -13,7 +13,7 @@ from windswept.render.film import check_film
 from windswept.render.offscreen import write_png
 from windswept.render.orbit import orbit_from
 from windswept.render.video import write_video
-from windswept.render.window import require_display
+from windswept.render.window import require_window
 
 
 def pictures(count, height=34, width=50):
@@ -97,7 +97,7 @@ def test_a_window_without_a_display_says_so(monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     with pytest.raises(GraphicsError, match="DISPLAY"):
-        require_display()
+        require_window()
 
 
 def test_an_orbit_starts_at_its_camera_and_keeps_its_distance():

@@ -26,7 +26,11 @@ BAD = {
         "plant[0].position: expected this key to be given: two num",
     ),
     "wrong type": ({"seed": "three"}, "seed = 'three': expected a whole number from 0 to 2,147,483,647"),
-    "truth is no number": ({"ground": {"size_m": True}}, "ground.size_m = True: expected a number from 10"),
+    "empty source": (
+        {"plant": [PLANT | {"source": ""}]},
+        "plant[0].source = '': expected text of 1 to 1,000 characters",
+    ),
+    "truth is no number": ({"ground": {"size_m": True}}, "ground.size_m = true: expected a number from 10"),
     "not a table": ({"wind": 3}, "wind = 3: expected a table"),
     "negative length": (
         {"ground": {"size_m": -5.0}},
@@ -46,11 +50,12 @@ BAD = {
     "no count": ({"stand": [STAND | {"count": 0}]}, "stand[0].count = 0: expected a whole number from 1"),
     "unknown species": (
         {"plant": [PLANT | {"source": "hazle"}]},
-        "plant[0].source = 'hazle': expected built-in underbrush or a built-in species: did you mean hazel?",
+        "plant[0].source = 'hazle': expected a built-in species, underbrush or grammar, or a file: did you mean "
+        "hazel?",
     ),
     "missing plant source": (
         {"stand": [STAND | {"source": [{"source": "no/such.npz"}]}]},
-        "stand[0].source[0].source = 'no/such.npz': expected a plant source that exists",
+        "stand[0].source[0].source = 'no/such.npz': expected a file that exists (looked for ",
     ),
     "waves too short to travel": (
         {"wind": {"waves": [WAVE | {"wavelength_m": 1e-300}]}},
@@ -173,8 +178,46 @@ def test_missing_file_directory_and_unknown_name(tmp_path: Path) -> None:
         load_scene(tmp_path)
     with pytest.raises(InputError, match="did you mean quaking_aspen"):
         load_scene("quaking_aspn")
-    with pytest.raises(InputError, match="a scene file or a built-in species"):
+    with pytest.raises(InputError, match="a scene file, or a plant's name or file"):
         load_scene("")
+    with pytest.raises(InputError, match="did you mean common_poppy"):
+        load_scene("common_popy")
+    with pytest.raises(InputError, match="source: expected the path of a scene file, or the name of a plant"):
+        load_scene(None)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("seed", [1.5, -1, True, "two"])
+def test_a_seed_is_a_whole_number(seed: Any) -> None:
+    for source in ("hazel", "common_poppy"):
+        with pytest.raises(InputError, match=r"seed = .*: expected a whole number from 0 up"):
+            load_scene(source, seed)
+
+
+def test_a_byte_order_mark_is_no_mistake(tmp_path: Path) -> None:
+    path = tmp_path / "notepad.toml"
+    text = '[[plant]]\nsource = "hazel"\nposition = [0, 0]\n[camera]\neye = [0, -9, 1]\ntarget = [0, 0, 1]\n'
+    path.write_bytes(b"\xef\xbb\xbf" + text.encode())
+    assert load_scene(path).placement_count == 1
+
+
+def test_a_camera_in_the_ground_is_told_how_high_that_is() -> None:
+    hills = {"ground": {"kind": "hills", "relief_m": 20.0}, "camera": CAMERA | {"eye": [0.0, -30.0, -0.1]}}
+    with pytest.raises(
+        InputError, match=r"camera\.eye = \[0.0, -30.0, -0.1\]: expected a height above the ground"
+    ):
+        build_scene("test.toml", GOOD | hills)
+    keys = [CAMERA | {"time_s": 0.0}, {"time_s": 1.0, "eye": [0.0, 9.0, -5.0], "target": [0.0, 0.0, 1.0]}]
+    with pytest.raises(InputError, match=r"camera\.key\[1\]\.eye"):
+        build_scene("test.toml", GOOD | {"camera": {"key": keys}})
+    build_scene("test.toml", GOOD | {"camera": CAMERA | {"eye": [0.0, -30.0, 0.0]}})
+
+
+def test_a_folder_is_no_image_and_no_plant(tmp_path: Path) -> None:
+    scene = str(tmp_path / "scene.toml")
+    with pytest.raises(InputError, match=r"image = '\.': expected an image, not a folder"):
+        build_scene(scene, GOOD | {"ground": {"kind": "image", "image": "."}})
+    with pytest.raises(InputError, match=r"source = '\./': expected a file, not a folder"):
+        build_scene(scene, GOOD | {"plant": [PLANT | {"source": "./"}]})
 
 
 def test_faulty_species_file_names_itself(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ import pytest
 from scipy.spatial.distance import pdist
 
 from windswept.forms.read_toml import read_toml
+from windswept.plants.underbrush import library, underbrush_names
 from windswept.plants.weber_penn import grow
 from windswept.scene.camera import view_at
 from windswept.scene.form import SceneForm
@@ -187,3 +188,31 @@ def built_in(species: str) -> str:
     import windswept.plants
 
     return (Path(windswept.plants.__path__[0]) / "species" / f"{species}.toml").read_text()
+
+
+@pytest.mark.parametrize("source", underbrush_names())
+def test_underbrush_is_a_patch_inside_the_picture(source: str) -> None:
+    scene = load_scene(source, 3)
+    assert scene.placement_count == 0
+    [colony] = scene.colonies
+    assert (colony.source, colony.count) == (source, 64)
+    assert np.abs(colony.position[:, :2]).max() <= 1.0
+    assert np.ptp(colony.position[:, :2], axis=0).min() > 1.5
+    view = view_at(scene.camera, 0.0)
+    forward = (view.target - view.eye) / np.linalg.norm(view.target - view.eye)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    ray = colony.position - view.eye
+    ray /= (ray @ forward)[:, None]
+    half = np.tan(0.5 * view.fov_y)
+    assert np.abs(ray @ np.cross(right, forward)).max() < half
+    assert np.abs(ray @ right).max() < half * 16.0 / 9.0
+    np.testing.assert_array_equal(load_scene(source, 3).colonies[0].position, colony.position)
+    assert (load_scene(source, 4).colonies[0].position != colony.position).any()
+
+
+def test_a_file_of_underbrush_is_a_patch_too(tmp_path: Path) -> None:
+    text = (Path(library.__file__).parent / "species" / "common_poppy.toml").read_text(encoding="utf-8")
+    own = tmp_path / "own.toml"
+    own.write_text(text.replace('"common_poppy"', '"own_poppy"'))
+    assert load_scene(own).colonies[0].source == str(own)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from handmade import random_tree
+from windswept.errors import InputError
 from windswept.plants.plant import Plant
 from windswept.scene.load_scene import load_scene
 from windswept.scene.scene import Placements, PlantKind, Scene
 from windswept.scene.simulation import Simulation
+from windswept.scene.world_links import world_links
 from windswept.wind.gusts import Gust
 from windswept.wind.mean import MeanWind
 from windswept.wind.wind import Wind, calm
@@ -121,3 +125,59 @@ def test_neighbours_are_neither_in_step_nor_strangers(breezy: Wind) -> None:
     matrix = np.corrcoef(np.array(track).T)
     neighbours = np.mean([matrix[i, i + 1] for i in range(7)])
     assert 0.1 < neighbours < 0.6
+
+
+@pytest.mark.parametrize("seconds", [-1.0, np.nan, np.inf])
+def test_time_that_cannot_pass_changes_nothing(breezy: Wind, seconds: float) -> None:
+    scene, plants = row_of_trees(breezy)
+    simulation = Simulation(scene, plants).advance(0.25)
+    before = simulation.pose[0].link.copy()
+    with pytest.raises(InputError, match=r"advance: seconds = .*: expected a time of 0 s or more"):
+        simulation.advance(seconds)
+    assert simulation.time == 0.25
+    np.testing.assert_array_equal(simulation.pose[0].link, before)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"pixels": 0.0}, "pixels = 0.0: expected a finite number above 0"),
+        ({"pixels": np.nan}, "pixels = nan: expected a finite number above 0"),
+        ({"pixels": -1.0}, "pixels = -1.0: expected a finite number above 0"),
+        ({"picture_height": 0}, "picture_height = 0: expected a finite number above 0"),
+        ({"aspect": 0.0}, "aspect = 0.0: expected a finite number above 0"),
+        ({"plants": []}, "plants = '0 plants': expected one for each of the scene's 1 kinds"),
+        ({"scene": "quaking_aspen"}, "scene = 'quaking_aspen': expected a Scene, as load_scene gives it"),
+    ],
+)
+def test_what_a_simulation_starts_from_is_checked(breezy: Wind, arguments: dict[str, Any], said: str) -> None:
+    scene, plants = row_of_trees(breezy)
+    with pytest.raises(InputError, match=re.escape(said)):
+        Simulation(**({"scene": scene, "plants": plants} | arguments))
+
+
+def test_links_in_the_world_hang_together_and_stand_where_they_were_placed(breezy: Wind) -> None:
+    scene, plants = row_of_trees(breezy)
+    simulation = Simulation(scene, plants)
+    base, tip = world_links(simulation, 0)
+    plant, placed = plants[0], scene.placements[0]
+    assert base.shape == tip.shape == (6, plant.link_count, 3)
+    root = int(np.flatnonzero(plant.link_parent < 0)[0])
+    np.testing.assert_allclose(base[:, root] - plant.link_base[root], placed.position, atol=1e-5)
+    simulation.advance(2.0)
+    base, tip = world_links(simulation, 0)
+    length = np.linalg.norm(plant.link_tip - plant.link_base, axis=1)
+    np.testing.assert_allclose(np.linalg.norm(tip - base, axis=2), np.tile(length, (6, 1)), rtol=1e-3)
+    child = np.flatnonzero(plant.link_parent >= 0)
+    up, along = plant.link_parent[child], plant.link_attach[child][:, None]
+    np.testing.assert_allclose(base[:, child], base[:, up] + along * (tip - base)[:, up], atol=1e-4)
+    moved = base - placed.position[:, None] - world_turned(plant.link_base, placed.yaw)
+    top = int(np.argmax(plant.link_base[:, 2]))
+    np.testing.assert_allclose(moved[:, top], tops(simulation), atol=1e-4)
+
+
+def world_turned(points: np.ndarray, yaw: np.ndarray) -> np.ndarray:
+    """(P, L, 3) points of a plant turned as its placements are."""
+    cosine, sine = np.cos(yaw)[:, None], np.sin(yaw)[:, None]
+    x, y, z = points.T
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y, z + 0.0 * cosine], axis=-1)

@@ -9,7 +9,7 @@ from PIL import Image
 
 from windswept.cli import main
 from windswept.gpu.device import shared_device
-from windswept.studies import bench_bend, skjermo, skjermo_pictures
+from windswept.studies import bench_bend, skjermo, skjermo_pictures, skjermo_plot
 
 
 @pytest.fixture
@@ -53,6 +53,34 @@ def test_rows_stand_beside_the_papers(small: None, capsys: pytest.CaptureFixture
     lags = [row["gap_max_m"] for row in bent if row["mode"] == "lagged"]
     assert lags[0] == pytest.approx(lags[1], rel=0.01)
     assert shared_device().adapter.info["device"] in bent[-1]["on"]
+
+
+def test_figure_8_shows_every_rate_and_the_papers(tmp_path: Path) -> None:
+    def row(what: str, on: str, branches: int, per_second: float, paper: float | None) -> dict[str, object]:
+        mode, vertices = "lagged", 63 * branches * (what == "frames")
+        return {"what": what, "mode": mode, "on": on, "branches": branches, "vertices": vertices} | {
+            "per_second": per_second,
+            "paper_per_second": paper,
+            "paper_on": "an old card",
+        }
+
+    rows = [row("bend", on, 65_536, rate, 600.0) for on, rate in (("a CPU", 1e3), ("a card", 2e4))]
+    rows += [row("frames", "a card", count, 2e6 / count, None) for count in (1024, 4096)]
+    colours = {name: getattr(skjermo_plot, name) for name in ("PAPER", "CPU", "CARD", "FRAMES", "WOOD")}
+    dots = {}
+    for name, more in (("without", []), ("with", [row("wood", "a card", 2_000, 50.0, None)])):
+        skjermo_plot.draw_frames(rows + more, tmp_path / f"{name}.png")
+        pixels = picture(tmp_path / f"{name}.png")[:, :, :3]
+        assert pixels.shape[:2] == skjermo_plot.SIZE[::-1]
+        left, top, right, bottom = skjermo_plot.FRAME
+        inside = pixels[top:bottom, left:right]
+        near = {key: np.abs(inside - colour).max(axis=2) < 12 for key, colour in colours.items()}
+        dots[name] = {key: np.argwhere(where).mean(axis=0) for key, where in near.items() if where.any()}
+    assert set(dots["without"]) == {"PAPER", "CPU", "CARD", "FRAMES"}
+    assert set(dots["with"]) == set(colours)
+    heights = [dots["with"][name][0] for name in ("CARD", "CPU", "PAPER", "WOOD")]
+    assert heights == sorted(heights)
+    assert dots["with"]["FRAMES"][1] < dots["with"]["CPU"][1]
 
 
 def test_a_folder_that_is_not_there_is_refused_before_any_work(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import importlib
 import os
+import signal
 import sys
-from typing import Any
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from typing import Any, NoReturn
 
 import click
 
@@ -23,6 +28,8 @@ COMMANDS = {
     "doctor": "say what works on this machine, and how to mend what does not",
 }
 """Name and one line of every command, in the order in which help lists them."""
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""Errors of a stdout that takes no more."""
 
 
 class _LazyGroup(click.Group):
@@ -64,11 +71,44 @@ def main(arguments: list[str] | None = None) -> Any:
     """
     os.environ.setdefault("NUMBA_THREADING_LAYER", "workqueue")
     try:
-        return cli.main(arguments, standalone_mode=False)
+        with _stopped_by_sigterm():
+            return cli.main(arguments, standalone_mode=False)
     except (WindsweptError, click.ClickException) as error:
-        message = error.format_message() if isinstance(error, click.ClickException) else str(error)
-        click.echo(f"windswept: {' '.join(message.split())}", err=True)
-        sys.exit(2)
+        _end(2, error.format_message() if isinstance(error, click.ClickException) else str(error))
+    except ModuleNotFoundError as error:
+        package = (error.name or "").split(".")[0]
+        if package in ("", "windswept"):
+            raise
+        _end(2, f"this needs the package {package}, which is not installed: pip install {package}")
+    except OSError as error:
+        if error.filename is not None or error.errno not in FULL:
+            raise
+        _let_go_of_stdout()
+        _end(2, f"the output cannot be written ({error.strerror})")
     except (KeyboardInterrupt, click.Abort):
-        click.echo("windswept: stopped", err=True)
-        sys.exit(130)
+        _end(130, "stopped")
+
+
+def _end(code: int, message: str) -> NoReturn:
+    """Ends with one line on stderr."""
+    click.echo(f"windswept: {' '.join(message.split())}", err=True)
+    sys.exit(code)
+
+
+@contextmanager
+def _stopped_by_sigterm() -> Iterator[None]:
+    """Ends what runs as Ctrl-C does when the process is told to end, so that no half file is left."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _let_go_of_stdout() -> None:
+    """What could not be written is dropped: Python would try again, and fail, at its end."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -21,6 +21,7 @@ NAMES = (
     "spread",
     "draw",
     "gpu_springs",
+    "gpu_bend",
     "gpu_blades",
     "gpu_meadow",
     "gpu_multibody",
@@ -35,7 +36,7 @@ def command(names: tuple[str, ...], as_json: bool) -> None:
     """Measure speed on this machine, of some parts or of all.
 
     Parts: springs, multibody, levels, accuracy, forest, bend, blades, field, growth, spread, draw, gpu_springs,
-    gpu_blades, gpu_meadow, gpu_multibody and forest_gpu.
+    gpu_bend, gpu_blades, gpu_meadow, gpu_multibody and forest_gpu.
 
     Example: windswept bench springs --json
     """

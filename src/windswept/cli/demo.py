@@ -8,7 +8,9 @@ from pathlib import Path
 
 import click
 
+from windswept.cli.progress import status_line
 from windswept.cli.render import parse_size, render_scene
+from windswept.motion import TIME_STEP
 from windswept.scene.load_scene import load_scene
 
 SCENE = "forest_edge.toml"
@@ -27,7 +29,8 @@ def command(size: tuple[int, int], headless: bool) -> None:
     Example: windswept demo
     """
     source = files("windswept") / "scene" / "examples" / SCENE
-    scene = load_scene(Path(str(source)))
+    with status_line("reading the scene"):
+        scene = load_scene(Path(str(source)))
     if not headless and (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         from windswept.cli.view import view_scene
 
@@ -35,7 +38,7 @@ def command(size: tuple[int, int], headless: bool) -> None:
         return
     video, picture = Path("windswept-demo.mp4"), Path("windswept-demo.png")
     figures = render_scene(scene, video, size, still=(picture, PICTURE_TIME))
-    click.echo(f"{video} and {picture}")
+    click.echo(f"wrote {video} and {picture}")
     click.echo(f"{figures['plants']} plants of {figures['kinds']} kinds with {figures['links']:,} links")
     click.echo(f"{figures['tufts']:,} tufts of underbrush with {figures['blades']:,} blades")
     if figures["clamped"]:
@@ -47,6 +50,7 @@ def command(size: tuple[int, int], headless: bool) -> None:
         if count:
             click.echo(f"  simulation level {level}: {count} plants")
     click.echo(
-        f"{figures['simulated_s']:g} s of wind, {figures['steps_per_second']:,.0f} simulation steps a second; "
-        f"grown in {figures['grow_seconds']:g} s, simulated and drawn in {figures['draw_seconds']:g} s"
+        f"{figures['simulated_s']:.1f} s of wind were simulated in steps of 1/{1.0 / TIME_STEP:.0f} s, "
+        f"{figures['steps_per_second']:,.0f} of them a second; "
+        f"growing took {figures['grow_seconds']:.0f} s, simulating and drawing {figures['draw_seconds']:.0f} s"
     )

@@ -12,10 +12,11 @@ import click
 import numpy as np
 
 from windswept.cli.numbers import SEED, FiniteRange
+from windswept.cli.progress import status_line
 from windswept.errors import InputError
-from windswept.motion.modes import plant_frequencies
+from windswept.forms.files import check_place
+from windswept.motion.natural_frequencies import natural_frequencies
 from windswept.motion.rods import build_rods
-from windswept.motion.skeleton import build_skeleton
 from windswept.plants.plant import Plant
 from windswept.plants.save import save_plant
 from windswept.plants.sources import Grown, grow_with_report
@@ -34,23 +35,24 @@ ENDINGS = (".npz", ".toml", ".obj")
 @click.option(
     "--leaf-area",
     type=FiniteRange(0.0),
-    help="Of a scan: m^2 of leaves; 0 is winter. [default: by the trunk]",
+    help="Of a scan alone: m^2 of leaves; 0 is winter. [default: by the trunk]",
 )
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of lines.")
 def command(source: str, seed: int, output: str | None, leaf_area: float | None, as_json: bool) -> None:
     """Grow one plant from SOURCE and report its figures.
 
     SOURCE is the name of a built-in species or grammar, or a file: species .toml; Arbaro or Helios .xml; tree-gen
-    or Sapling .py; ez-tree .json; Arbaro list .txt; L-system .l or .lpy; scanned cylinders .csv or .mat; a saved
-    plant .npz.
+    or Sapling .py; ez-tree .json; Arbaro list .txt or .arb; L-system .l or .lpy; scanned cylinders .csv or .mat; a
+    saved plant .npz.
 
     Example: windswept grow quaking_aspen --seed 3 --json
     """
-    if output is not None and Path(output).suffix.lower() not in ENDINGS:
-        raise InputError(output, "", None, f"a file that ends in one of {', '.join(ENDINGS)}")
-    started = time.perf_counter()
-    grown = grow_with_report(source, seed, leaf_area)
-    figures = plant_figures(grown.plant, time.perf_counter() - started)
+    if output is not None:
+        check_place(Path(output), ENDINGS, "--output")
+    with status_line(f"growing {source}"):
+        started = time.perf_counter()
+        grown = grow_with_report(source, seed, leaf_area)
+        figures = plant_figures(grown.plant, time.perf_counter() - started)
     if grown.report is not None:
         for line in grown.report.lines():
             click.echo(line, err=True)
@@ -104,7 +106,7 @@ def plant_figures(plant: Plant, seconds: float) -> dict[str, Any]:
         "leaves": plant.leaf_count,
         "leaf_area_m2": round(float(plant.leaf_area.sum()), 3),
         "wood_mass_kg": round(wood, 3),
-        "frequencies_hz": [round(float(f), 4) for f in plant_frequencies(build_skeleton(plant), rods, 5)],
+        "frequencies_hz": [round(float(f), 4) for f in natural_frequencies(plant, 5)],
         "seconds": round(seconds, 4),
     }
 

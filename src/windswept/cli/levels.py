@@ -61,13 +61,14 @@ def command(
     """
     path = None if plot is None else Path(plot)
     if path is not None:
-        check_place(path, (".png",))
+        check_place(path, (".png",), "--plot")
     plant = grow_source(source, seed)
     model = build_model(plant)
-    started = time.perf_counter()
-    ladder = build_ladder(simplify(model), multibody)
-    seconds_to_build = time.perf_counter() - started
-    with status_line("measuring every level against level 0"):
+    with status_line("building levels") as say:
+        started = time.perf_counter()
+        ladder = build_ladder(simplify(model), multibody)
+        seconds_to_build = time.perf_counter() - started
+        say("measuring every level against level 0")
         measured = measure(ladder, seconds, metric=metric)
         stated = with_measured_errors(ladder, measured, bound_errors(ladder, metric))
         rows = [level_row(stated, measured, rung, METRICS[metric]) for rung in range(len(ladder.levels))]

@@ -11,6 +11,8 @@ import click
 class FiniteRange(click.FloatRange):
     """A finite number in a range; click's own range lets nan through, since nan is below and above nothing."""
 
+    name = "number"
+
     def convert(self, value: Any, parameter: click.Parameter | None, context: click.Context | None) -> float:
         """The number, or a line that says what is wrong with it."""
         number: float = super().convert(value, parameter, context)
@@ -19,5 +21,15 @@ class FiniteRange(click.FloatRange):
         return number
 
 
-SEED = click.IntRange(0, 2**31 - 1)
+class WholeRange(click.IntRange):
+    """A whole number in a range, called by that name where it is none."""
+
+    name = "whole number"
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str | None:
+        """What help shows for it."""
+        return "INTEGER"
+
+
+SEED = WholeRange(0, 2**31 - 1)
 """What scene files take as well."""

@@ -14,6 +14,7 @@ import click
 from windswept.cli.numbers import SEED, FiniteRange
 from windswept.cli.progress import progress_bar, status_line
 from windswept.errors import GraphicsError, InputError
+from windswept.forms.files import check_place
 from windswept.scene.load_scene import load_scene
 from windswept.scene.meadow import plant_meadow
 from windswept.scene.scene import Scene
@@ -55,7 +56,9 @@ def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, in
     "--level-colours", is_flag=True, help="Colour plants by simulation level: red every link, violet one."
 )
 @click.option(
-    "--gpu", is_flag=True, help="Simulate on the graphics card; on the CPU where it has too little memory."
+    "--gpu",
+    is_flag=True,
+    help="Simulate on the graphics card; on the CPU where it has too little memory or is lost.",
 )
 @click.option(
     "--multibody",
@@ -80,10 +83,9 @@ def command(
 
     Example: windswept render examples/forest_edge.toml -o edge.mp4
     """
-    from windswept.render.film import check_film
-
-    check_film(output)
-    scene = load_scene(source, seed)
+    _check_asked(output, at, duration)
+    with status_line(f"reading {source}"):
+        scene = load_scene(source, seed)
     if duration is not None:
         scene = replace(scene, duration=duration)
     figures = render_scene(scene, output, size, at, levels, level_colours, gpu=gpu, multibody=multibody)
@@ -93,8 +95,20 @@ def command(
     if figures["refused"]:
         line = "plants found no room on the card and are missing from a picture"
         click.echo(f"windswept: {figures['refused']:,} {line}", err=True)
-    if as_json:
-        click.echo(json.dumps(figures))
+    click.echo(json.dumps(figures) if as_json else f"wrote {output}")
+
+
+def _check_asked(output: Path, at: float | None, duration: float | None) -> None:
+    """Refuses a file that cannot be made, and an option that it would not heed."""
+    from windswept.render.film import PICTURE_ENDINGS
+    from windswept.render.video import VIDEO_ENDINGS
+
+    check_place(output, PICTURE_ENDINGS + VIDEO_ENDINGS, "--output")
+    is_picture = output.suffix.lower() in PICTURE_ENDINGS
+    if is_picture and duration is not None:
+        raise InputError("--duration", "", duration, "a video as --output; the time of a picture is --at")
+    if not is_picture and at is not None:
+        raise InputError("--at", "", at, "a picture as --output; the length of a video is --duration")
 
 
 def start(
@@ -141,6 +155,15 @@ def _without_card(
     )
 
 
+def start_again(
+    simulation: GpuSimulation, levels: bool, size: tuple[int, int], multibody: bool = False
+) -> Simulation:
+    """The scene of a simulation whose card was lost, on the CPU from its beginning."""
+    beds = () if simulation.meadow is None else simulation.meadow.beds
+    plants = [kind.plant for kind in simulation.kinds]
+    return _without_card(simulation.scene, plants, beds, levels, size, multibody)
+
+
 def render_scene(
     scene: Scene,
     output: Path,
@@ -168,9 +191,7 @@ def render_scene(
             if isinstance(simulation, Simulation):
                 raise
             click.echo(f"windswept: {error}; starting again on the CPU", err=True)
-            beds = () if simulation.meadow is None else simulation.meadow.beds
-            plants = [kind.plant for kind in simulation.kinds]
-            simulation = _without_card(scene, plants, beds, levels, size, multibody)
+            simulation = start_again(simulation, levels, size, multibody)
             spent = _film(simulation, output, at, shot, still)
     # A card works on while the CPU goes ahead: there only its own clock knows.
     speed = (

@@ -8,36 +8,44 @@ from typing import Any
 
 import click
 
-from windswept.forms.files import check_place
+from windswept.cli.numbers import WholeRange
+from windswept.errors import InputError
+from windswept.forms.files import make_folder
 
 
 @click.command("reproduce")
 @click.argument("paper", type=click.Choice(["beaudoin", "endo", "skjermo"]))
 @click.option(
     "--links",
-    type=click.IntRange(1000, 80_000),
-    default=77_141,
-    show_default=True,
-    help="Of Beaudoin's tree.",
+    type=WholeRange(1000, 80_000),
+    help="Of Beaudoin's tree.  [default: 77141]",
 )
-@click.option("-o", "--output", help="Folder for the pictures.")
+@click.option(
+    "-o",
+    "--output",
+    help="Folder, made if need be, for pictures like the paper's, skjermo's figure 8 among them.",
+)
 @click.option("--json", "as_json", is_flag=True, help="A JSON list of rows.")
-def command(paper: str, links: int, output: str | None, as_json: bool) -> None:
+def command(paper: str, links: int | None, output: str | None, as_json: bool) -> None:
     """Make a founding paper's table beside ours.
 
-    Example: windswept reproduce beaudoin
+    Example: windswept reproduce beaudoin -o pictures
     """
 
     def say(line: str) -> None:
         click.echo(line, err=True)
 
+    if links is not None and paper != "beaudoin":
+        raise InputError("--links", "", links, "beaudoin as the paper: the others have no such tree")
+    if output == "":
+        raise InputError("--output", "", output, "the path of a folder")
     folder = None if output is None else Path(output)
     if folder is not None:
-        check_place(folder / f"{paper}.png", (".png",))
+        make_folder(folder, "--output")
     if paper == "beaudoin":
-        from windswept.studies.beaudoin import beaudoin
+        from windswept.studies.beaudoin import PAPER, beaudoin
 
-        rows, table = beaudoin(links, folder=folder, say=say), _beaudoin_table
+        rows, table = beaudoin(links or PAPER[0][0], folder=folder, say=say), _beaudoin_table
     elif paper == "endo":
         from windswept.studies.endo import endo
 

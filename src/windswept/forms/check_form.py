@@ -10,7 +10,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from windswept.errors import InputError
-from windswept.forms.words import field_words, nearest, one_line, shown
+from windswept.forms.words import field_words, nearest, one_line, shown_as_toml
 
 FormType = TypeVar("FormType", bound=BaseModel)
 
@@ -44,7 +44,7 @@ def _fault_error(source: str, form: type[BaseModel], fault: ErrorDetails) -> Inp
     words = _expectation(form, steps, fault)
     if kind == "missing":
         return InputError(source, place, None, f"this key to be given: {words}")
-    return InputError(source, place, shown(fault["input"]), words)
+    return InputError(source, place, shown_as_toml(fault["input"]), words)
 
 
 def _expectation(form: type[BaseModel], steps: tuple[int | str, ...], fault: ErrorDetails) -> str:

@@ -8,7 +8,7 @@ from windswept.errors import InputError
 
 
 def read_text(path: Path, largest: int, noun: str) -> str:
-    """UTF-8 text of a file.
+    """UTF-8 text of a file, without the byte order mark that some editors write before it.
 
     Args:
         path: where it lies.
@@ -19,7 +19,7 @@ def read_text(path: Path, largest: int, noun: str) -> str:
         InputError: no such file, too large, or not UTF-8.
     """
     try:
-        return read_bytes(path, largest, noun).decode("utf-8")
+        return read_bytes(path, largest, noun).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(shown_path(path), f"byte {error.start}", None, "UTF-8 text") from None
 

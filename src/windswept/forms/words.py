@@ -50,7 +50,9 @@ def _type_words(kind: Any, limits: Sequence[Any]) -> str:
         return f"{COUNTS[len(items)]} numbers{_range_words(_limits(get_args(items[0])[1:]))}"
     if get_origin(kind) is list:
         return _list_words(get_args(kind)[0], limits)
-    nouns = {int: "a whole number", float: "a number", str: "text"}
+    if kind is str:
+        return f"text{_length_words(limits)}"
+    nouns = {int: "a whole number", float: "a number"}
     if kind in nouns:
         return nouns[kind] + _range_words(limits)
     return "a table"
@@ -69,6 +71,13 @@ def _list_words(item: Any, limits: Sequence[Any]) -> str:
     most = next(limit.max_length for limit in limits if isinstance(limit, MaxLen))
     is_table = isinstance(item, type) and issubclass(item, BaseModel)
     return f"{least} to {most:,} {'tables' if is_table else 'lists of ' + _type_words(item, [])}"
+
+
+def _length_words(limits: Sequence[Any]) -> str:
+    """How long a text may be, with a space before; empty where it may be empty."""
+    least = next((limit.min_length for limit in limits if isinstance(limit, MinLen)), 0)
+    most = next((limit.max_length for limit in limits if isinstance(limit, MaxLen)), None)
+    return "" if least == 0 or most is None else f" of {least} to {most:,} characters"
 
 
 def _range_words(limits: Sequence[Any]) -> str:
@@ -102,6 +111,21 @@ def shown(value: object) -> object:
     """The value itself where it prints as a short line, else something that does."""
     whole = repr(value)
     return value if len(whole) <= LONGEST_LINE // 2 and whole.isprintable() else _Shortened(value)
+
+
+def shown_as_toml(value: object) -> object:
+    """As `shown`, with true and false as a TOML file has them."""
+    return _Written(str(value).lower()) if isinstance(value, bool) else shown(value)
+
+
+@dataclass(frozen=True, slots=True)
+class _Written:
+    """A value as it stands in a file."""
+
+    text: str
+
+    def __repr__(self) -> str:
+        return self.text
 
 
 class _Shortened:

@@ -6,6 +6,9 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+import wgpu
+
+from windswept.gpu.device import is_software
 from windswept.gpu.wiring import (
     COMPUTE,
     READ,
@@ -54,6 +57,12 @@ class Kernel:
         constants: dict[str, float] | None = None,
     ) -> None:
         self._device = device
+        # Mesa's software driver (22.3), once it has drawn a picture, notes a pass's beginning only at the pass's first
+        # barrier. wgpu sets none before a first dispatch, unless the card holds the dispatch's size: so one of nothing
+        # goes ahead of each, else its time would be missing.
+        self._nothing = (
+            device.create_buffer(size=12, usage=wgpu.BufferUsage.INDIRECT) if is_software(device) else None
+        )
         declared = declared_bindings(module)
         self._declared = {name: declared[name] for name in declared if name in resources}
         self._layout = group_layout(device, COMPUTE, dict(self._declared.values()))
@@ -68,6 +77,8 @@ class Kernel:
     def record(self, compute_pass: Any, *workgroups: int) -> None:
         """Records a dispatch of so many workgroups."""
         self._set(compute_pass)
+        if self._nothing is not None:
+            compute_pass.dispatch_workgroups_indirect(self._nothing, 0)
         compute_pass.dispatch_workgroups(*workgroups)
 
     def record_planned(self, compute_pass: Any, dispatches: Any, row: int) -> None:

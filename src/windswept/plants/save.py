@@ -63,9 +63,11 @@ def load_plant(path: Path) -> Plant:
         head = json.loads(arrays.pop(_HEAD).tobytes().decode())
     except InputError:
         raise
-    except Exception as error:
+    except Exception:
         # A damaged archive may fail in any layer of zip, NumPy and JSON; all of them mean the same to a person.
-        raise InputError(source, "", None, f"an .npz file of a plant ({type(error).__name__})") from None
+        raise InputError(
+            source, "", None, "an .npz file that windswept saved a plant to, and whole"
+        ) from None
     plant = _assembled(source, head, arrays)
     try:
         validate(plant)

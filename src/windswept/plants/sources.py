@@ -9,6 +9,7 @@ from pathlib import Path
 from windswept.errors import InputError
 from windswept.forms.read_text import shown_path
 from windswept.forms.words import nearest, one_line
+from windswept.plants.check_seed import check_seed
 from windswept.plants.importers import ENDINGS as PRESET_ENDINGS
 from windswept.plants.importers import ImportReport, import_species
 from windswept.plants.plant import Plant
@@ -37,7 +38,12 @@ class Grown:
     """What became of a foreign file's values; None for what is our own."""
 
 
-def grow_source(source: str | Path, seed: int = 0, say: Callable[[str], None] = lambda line: None) -> Plant:
+def grow_source(
+    source: str | Path,
+    seed: int = 0,
+    say: Callable[[str], None] = lambda line: None,
+    leaf_area: float | None = None,
+) -> Plant:
     """The plant that a source means.
 
     Args:
@@ -46,12 +52,13 @@ def grow_source(source: str | Path, seed: int = 0, say: Callable[[str], None] = 
             .mat, saved plant .npz.
         seed: 0 or more. A saved plant has its own; a scan draws its leaves with it.
         say: told what an importer or a scan had to change, line by line.
+        leaf_area: of a scan, m^2; None reckons it from the trunk, 0 is a bare tree in winter.
 
     Raises:
         InputError: there is no such source, or something in the file is wrong.
         BudgetError: the plant would be too large.
     """
-    grown = grow_with_report(source, seed)
+    grown = grow_with_report(source, seed, leaf_area)
     for line in grown.report.lines() if grown.report else ():
         say(line)
     return grown.plant
@@ -63,17 +70,20 @@ def grow_with_report(source: str | Path, seed: int = 0, leaf_area: float | None 
     Args:
         source: as there.
         seed: as there.
-        leaf_area: of a scan, m^2; None reckons it from the trunk, 0 is a bare tree in winter.
+        leaf_area: as there.
     """
     check_source(source)
-    if seed < 0:
-        raise InputError("seed", "", seed, "a whole number from 0 up")
+    check_seed(seed)
     path, ending = Path(source), Path(source).suffix.lower()
+    is_scan = is_path(source) and ending in SCAN_ENDINGS
+    if leaf_area is not None and not is_scan:
+        expected = f"a scan ({', '.join(SCAN_ENDINGS)}) as the source: other plants bring their own leaves"
+        raise InputError("leaf area", "", leaf_area, expected)
     if is_grammar(source):
         from windswept.plants.lsystem import grow_lsystem
 
         return Grown(grow_lsystem(source, seed), None, None)
-    if is_path(source) and ending in SCAN_ENDINGS:
+    if is_scan:
         from windswept.plants.scans import grow_scan
 
         plant, report = grow_scan(path, seed, leaf_area)

@@ -20,7 +20,7 @@ _FOLDER = Path(__file__).parent / "species"
 
 
 def species_names() -> list[str]:
-    """Names of the built-in species, sorted."""
+    """Names of the built-in species that grow alone, sorted; `underbrush_names` has those that grow in scenes."""
     return sorted(path.stem for path in _FOLDER.glob("*.toml"))
 
 

@@ -18,7 +18,7 @@ from windswept.gpu.frame import (
     PosedPlants,
 )
 from windswept.gpu.meadow.blade_list import BladeRules
-from windswept.gpu.renderer import Renderer
+from windswept.gpu.renderer import PICTURE_FORMAT, Renderer
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.motion import TIME_STEP, Level
 from windswept.plants.plant import Floats, Ints, Look
@@ -50,6 +50,7 @@ def stage(
     size: tuple[int, int] = (1280, 720),
     rules: DetailRules | None = None,
     blade_rules: BladeRules | None = None,
+    colour_format: str = PICTURE_FORMAT,
 ) -> Renderer:
     """A renderer that holds everything of a simulation's scene.
 
@@ -58,6 +59,7 @@ def stage(
         size: width and height, pixels.
         rules: what may be spent; None for what suits the device.
         blade_rules: the same for underbrush.
+        colour_format: of its pictures.
 
     Raises:
         GraphicsError: there is no graphics adapter.
@@ -66,9 +68,7 @@ def stage(
     geometries = [build_geometry(plant) for plant in plants]
     ground = ground_grid(simulation.scene.terrain)
     beds = () if simulation.meadow is None else simulation.meadow.beds
-    return Renderer(
-        plants, geometries, ground, size, rules, extra_looks=LEVEL_LOOKS, beds=beds, blade_rules=blade_rules
-    )
+    return Renderer(plants, geometries, ground, size, rules, colour_format, LEVEL_LOOKS, beds, blade_rules)
 
 
 class LevelLooks:

@@ -30,7 +30,8 @@ def build_camera(source: str, form: CameraForm, terrain: Terrain) -> Camera:
         terrain: the ground.
 
     Raises:
-        InputError: neither or both of a place and keys, keys out of order, or an eye in its target.
+        InputError: neither or both of a place and keys, keys out of order, or an eye in its target or in the
+            ground.
     """
     keys = form.key or [_only_key(source, form)]
     if form.key and (form.eye is not None or form.target is not None):
@@ -41,6 +42,10 @@ def build_camera(source: str, form: CameraForm, terrain: Terrain) -> Camera:
             raise InputError(source, f"{place}.time_s", key.time_s, f"a time after {keys[i - 1].time_s:g}")
         if math.dist(key.eye, key.target) < SAME_PLACE:
             raise InputError(source, f"{place}.target", list(key.target), "a place other than the eye")
+        if key.eye[2] < 0.0:
+            ground = float(terrain.height(key.eye[0], key.eye[1]))
+            expected = f"a height above the ground from 0 up: it lies at {ground:.4g} m there"
+            raise InputError(source, f"{place}.eye", list(key.eye), expected)
     fov = [form.fov_degrees if key.fov_degrees is None else key.fov_degrees for key in keys]
     return Camera(
         time=np.array([key.time_s for key in keys], dtype=np.float32),
@@ -78,3 +83,16 @@ def frame_plant(height: float, radius: float) -> Camera:
     target = np.array([0.0, 0.0, 0.5 * height])
     eye = direction * distance + np.array([0.0, 0.0, max(0.3 * height, 0.2)])
     return standing_camera(eye, target, LONE_FOV)
+
+
+def frame_patch(height: float, edge: float) -> Camera:
+    """A camera that shows a square patch at the origin from the south and from above, a little from the east.
+
+    Args:
+        height: of what grows there, m.
+        edge: of the patch, which fills most of a picture wider than high, m.
+    """
+    half = LONE_MARGIN * max(0.65 * height, 0.3 * edge)
+    distance = half / math.tan(0.5 * LONE_FOV) + 0.5 * edge
+    eye = np.array([0.3 * distance, -0.95 * distance, 0.5 * height + 0.3 * distance])
+    return standing_camera(eye, np.array([0.0, 0.0, 0.5 * height]), LONE_FOV)

@@ -71,7 +71,8 @@ def _find_image(source: str, table: str, kind: str, image: str | None) -> GreyIm
         raise InputError(source, f"{table}.kind", kind, '"image", as an image is given')
     path = Path(source).parent / image
     if not path.is_file():
-        raise InputError(source, f"{table}.image", image, f"an image that exists (looked for {path})")
+        expected = "an image, not a folder" if path.is_dir() else f"an image that exists (looked for {path})"
+        raise InputError(source, f"{table}.image", image, expected)
     found = read_grey(path)
     rows, columns = found.grey.shape
     if rows != columns:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from windswept.plants.sources import grow_source
 from windswept.scene.build_camera import frame_plant
 from windswept.scene.build_wind import build_wind
+from windswept.scene.camera import Camera
 from windswept.scene.form import GustForm, WindForm
 from windswept.scene.scene import Placements, PlantKind, Scene, sun_towards
 from windswept.scene.terrain import flat_terrain
@@ -36,13 +38,26 @@ def lone_plant(source: str, seed: int = 0) -> Scene:
     plant = grow_source(source, seed)
     radius = float(np.hypot(plant.link_tip[:, 0], plant.link_tip[:, 1]).max())
     placements = Placements(position=np.zeros((1, 3), dtype=np.float32), yaw=np.zeros(1, dtype=np.float32))
+    empty = empty_scene(source, seed, plant.height, frame_plant(plant.height, radius))
+    return replace(empty, kinds=(PlantKind(source, seed),), placements=(placements,))
+
+
+def empty_scene(source: str, seed: int, height: float, camera: Camera) -> Scene:
+    """Flat ground in a light breeze with a gust.
+
+    Args:
+        source: of what will stand there, for error messages.
+        seed: of the turbulence.
+        height: of what will stand there, m.
+        camera: that looks at it.
+    """
     return Scene(
         seed=seed,
-        terrain=flat_terrain(max(GROUND_SIZE, 6.0 * plant.height)),
+        terrain=flat_terrain(max(GROUND_SIZE, 6.0 * height)),
         wind=build_wind(source, WIND, seed),
-        kinds=(PlantKind(source, seed),),
-        placements=(placements,),
-        camera=frame_plant(plant.height, radius),
+        kinds=(),
+        placements=(),
+        camera=camera,
         sun_direction=sun_towards(math.radians(215.0), math.radians(35.0)),
         duration=10.0,
         frames_per_second=25.0,

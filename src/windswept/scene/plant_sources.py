@@ -34,11 +34,13 @@ def find_source(file: str, place: str, source: str) -> str:
     """
     if not is_path(source):
         if source not in source_names():
-            raise InputError(file, place, source, f"a built-in species: {nearest(source, source_names())}")
+            known = nearest(source, source_names())
+            raise InputError(file, place, source, f"a built-in species or grammar, or a file: {known}")
         return source
     path = Path(file).parent / source
     if not path.is_file():
-        raise InputError(file, place, source, f"a plant source that exists (looked for {path})")
+        expected = "a file, not a folder" if path.is_dir() else f"a file that exists (looked for {path})"
+        raise InputError(file, place, source, expected)
     check_source(path)
     if path.suffix.lower() == SPECIES_ENDING:
         load_species(path)
@@ -61,7 +63,8 @@ def find_source_or_underbrush(file: str, place: str, source: str) -> tuple[str, 
             return source, False
         if source not in source_names():
             known = nearest(source, [*underbrush_names(), *source_names()])
-            raise InputError(file, place, source, f"built-in underbrush or a built-in species: {known}")
+            expected = f"a built-in species, underbrush or grammar, or a file: {known}"
+            raise InputError(file, place, source, expected)
         return source, True
     path = Path(file).parent / source
     if path.suffix.lower() == SPECIES_ENDING and path.is_file() and is_underbrush_file(path):

@@ -7,6 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from windswept.errors import InputError
+from windswept.forms.words import shown
 from windswept.levels import Eye
 from windswept.motion import TIME_STEP
 from windswept.plants.plant import Floats, Plant
@@ -37,6 +39,9 @@ class Simulation:
             errors are against it.
         beds: the scene's underbrush at rest; None plants it.
         aspect: width of the picture over its height.
+
+    Raises:
+        InputError: no scene, not a plant for each kind, or a number that is not above 0.
     """
 
     def __init__(
@@ -51,6 +56,7 @@ class Simulation:
         beds: tuple[Bed, ...] | None = None,
         aspect: float = 16.0 / 9.0,
     ) -> None:
+        _check_arguments(scene, plants, pixels, picture_height, aspect)
         self.scene = scene
         self.wind = scene.wind
         """May be replaced while the simulation runs, as the viewer's sliders do."""
@@ -75,7 +81,13 @@ class Simulation:
         self._sample_winds()
 
     def advance(self, seconds: float) -> Simulation:
-        """Lets ``seconds`` pass: as many fixed inner steps as fit."""
+        """Lets ``seconds`` pass: as many fixed inner steps as fit.
+
+        Raises:
+            InputError: a time that is below 0 s, or not finite.
+        """
+        if not 0.0 <= seconds < math.inf:
+            raise InputError("advance", "seconds", seconds, "a time of 0 s or more")
         self.time += seconds
         # A frame rate's rounding must not lose a step that is due.
         due = math.floor(self.time / TIME_STEP + 1e-6)
@@ -94,7 +106,10 @@ class Simulation:
 
     @property
     def pose(self) -> list[Pose]:
-        """Where every link of every kind is at this moment, in the plants' own frames."""
+        """Where every link is at this moment, in the plants' own frames: ``pose[k]`` is of ``scene.kinds[k]``.
+
+        Underbrush is no kind and has no poses here; `world_links` gives places in the world.
+        """
         ahead = self.time - self.step_count * TIME_STEP
         return [kind.pose(self.time, ahead) for kind in self.kinds]
 
@@ -150,3 +165,18 @@ class Simulation:
         step_field(field, stop - field.time)
         for kind in self.kinds:
             kind.add_field(field, 1)
+
+
+def _check_arguments(
+    scene: Scene, plants: list[Plant] | None, pixels: float, picture_height: int, aspect: float
+) -> None:
+    """What a simulation starts from can be meant."""
+    if not isinstance(scene, Scene):
+        raise InputError("Simulation", "scene", shown(scene), "a Scene, as load_scene gives it")
+    if plants is not None and len(plants) != len(scene.kinds):
+        expected = f"one for each of the scene's {len(scene.kinds)} kinds, or None"
+        raise InputError("Simulation", "plants", f"{len(plants)} plants", expected)
+    numbers = {"pixels": pixels, "picture_height": picture_height, "aspect": aspect}
+    for name, value in numbers.items():
+        if not 0.0 < value < math.inf:
+            raise InputError("Simulation", name, value, "a finite number above 0")

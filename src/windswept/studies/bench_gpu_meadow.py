@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from windswept.gpu.blades import Leaning
 from windswept.gpu.device import adapter_summary, is_software, shared_device
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.motion import TIME_STEP
@@ -30,8 +29,7 @@ FRAMES, REPEATS = 4, 9
 def bench_gpu_meadow(say: Callable[[str], None] = lambda line: None) -> dict[str, float]:
     """Figures ``gpu.meadow.<blades>.*``: stages by the card's own clock, frames a second, memory of the motion.
 
-    ``lean.ms`` is four steps; on a software driver, which loses its clock once a picture was drawn, by the clock on the
-    wall.
+    ``lean.ms`` is four steps.
     """
     count = SOFTWARE_COUNT if is_software(shared_device()) else COUNT
     say(f"gpu meadow of {count} blades at {SIZE[0]} x {SIZE[1]}, on {adapter_summary()}")
@@ -44,8 +42,6 @@ def meadow_figures(scene: Scene, size: tuple[int, int], repeats: int) -> dict[st
     meadow, interval = simulation.meadow, WIND_INTERVAL * TIME_STEP
     assert meadow is not None
     leaning = median_stages(lambda: simulation.advance(interval).stage_milliseconds, repeats)
-    if is_software(shared_device()):
-        leaning["lean"] = 1e3 * median_seconds(lambda: _lean(meadow.leaning), repeats)
     renderer = stage(simulation, size)
     assert renderer.meadow is not None
     width = 0.25 * scene.terrain.size
@@ -72,9 +68,3 @@ def meadow_figures(scene: Scene, size: tuple[int, int], repeats: int) -> dict[st
         **{f"{name}.ms": value for name, value in (leaning | drawing).items()},
     }
     return {f"gpu.meadow.{meadow.blade_count}.{name}": float(value) for name, value in figures.items()}
-
-
-def _lean(leaning: Leaning) -> None:
-    """Four steps, waited for."""
-    leaning.step(WIND_INTERVAL)
-    leaning.wait()

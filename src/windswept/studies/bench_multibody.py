@@ -9,7 +9,7 @@ import numpy as np
 from windswept.motion import Model, Stepper, build_model, finest_level, rest_state
 from windswept.motion.multibody import MultibodyStepper, coupled_rest
 from windswept.studies.bench_plants import plant_with_links
-from windswept.studies.bench_springs import SUBSTEPS, mujoco_seconds_per_step
+from windswept.studies.bench_springs import SUBSTEPS, mujoco_figures, mujoco_is_there
 from windswept.studies.machine import median_seconds
 
 SIZES = ((200, 128), (1_000, 128), (5_000, 128))
@@ -19,20 +19,20 @@ SIZES = ((200, 128), (1_000, 128), (5_000, 128))
 def bench_multibody(say: Callable[[str], None] = lambda line: None) -> dict[str, float]:
     """Figures ``multibody.<links>x<placements>.*``.
 
-    ``times_mujoco`` is MuJoCo's time (Euler integrator, contacts off, the same rods) over ours per link and step,
-    ``times_springs_time`` our time over that of `springs` on the same tree in the same wind.
+    ``times_mujoco`` is MuJoCo's time (Euler integrator, contacts off, the same rods) over ours per link and step
+    (left out where MuJoCo is not installed), ``times_springs_time`` our time over that of `springs`
+    on the same tree in the same wind.
     """
-    figures = {}
+    against_mujoco, figures = mujoco_is_there(say), {}
     for links, placements in SIZES:
         say(f"multibody, {links} links x {placements}")
         model = build_model(plant_with_links(links))
         name = f"multibody.{links}x{placements}"
         ours, springs = (seconds / (links * placements) for seconds in seconds_per_step(model, placements))
-        theirs = mujoco_seconds_per_step(model) / links
         figures[f"{name}.ns_per_link_step"] = ours * 1e9
         figures[f"{name}.times_springs_time"] = ours / springs
-        figures[f"{name}.mujoco_ns_per_link_step"] = theirs * 1e9
-        figures[f"{name}.times_mujoco"] = theirs / ours
+        if against_mujoco:
+            figures |= mujoco_figures(name, model, ours)
     return figures
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib.util import find_spec
 
 import numpy as np
 
@@ -23,10 +24,11 @@ MUJOCO_LIMIT = 10_000
 def bench_springs(say: Callable[[str], None] = lambda line: None) -> dict[str, float]:
     """Figures ``springs.<links>x<placements>.*``.
 
-    ``times_mujoco`` is MuJoCo's time (Euler integrator, contacts off, the same rods) over ours per link and step.
+    ``times_mujoco`` is MuJoCo's time (Euler integrator, contacts off, the same rods) over ours per link and step; it
+    is left out where MuJoCo is not installed.
     ``times_triad_time`` is our time over the time in which the machine's triad moves ``bytes_per_link_step``.
     """
-    bandwidth = triad_bandwidth()
+    bandwidth, against_mujoco = triad_bandwidth(), mujoco_is_there(say)
     figures = {"triad.gb_per_s": bandwidth / 1e9}
     for links, placements in SIZES:
         say(f"springs, {links} links x {placements}")
@@ -37,10 +39,8 @@ def bench_springs(say: Callable[[str], None] = lambda line: None) -> dict[str, f
         figures[f"{name}.ns_per_link_step"] = seconds * 1e9
         figures[f"{name}.bytes_per_link_step"] = moved
         figures[f"{name}.times_triad_time"] = seconds * bandwidth / moved
-        if links <= MUJOCO_LIMIT:
-            theirs = mujoco_seconds_per_step(model) / links
-            figures[f"{name}.mujoco_ns_per_link_step"] = theirs * 1e9
-            figures[f"{name}.times_mujoco"] = theirs / seconds
+        if against_mujoco and links <= MUJOCO_LIMIT:
+            figures |= mujoco_figures(name, model, seconds)
     return figures
 
 
@@ -63,6 +63,20 @@ def bytes_per_link_step(placements: int) -> float:
     per_lane = 4 * (4 * 3 + 13 * 2)
     shared = 2 * (4 * CONSTANT_COUNT + 12)
     return per_lane + shared / min(placements, WIDTH)
+
+
+def mujoco_is_there(say: Callable[[str], None]) -> bool:
+    """Whether MuJoCo can be compared with; says what to install where it cannot."""
+    if find_spec("mujoco") is not None:
+        return True
+    say("without times_mujoco, as MuJoCo is not installed: pip install mujoco")
+    return False
+
+
+def mujoco_figures(name: str, model: Model, seconds: float) -> dict[str, float]:
+    """MuJoCo's time on a tree beside our time per link and step, s."""
+    theirs = mujoco_seconds_per_step(model) / model.link_count
+    return {f"{name}.mujoco_ns_per_link_step": theirs * 1e9, f"{name}.times_mujoco": theirs / seconds}
 
 
 def mujoco_seconds_per_step(model: Model) -> float:

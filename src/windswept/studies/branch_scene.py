@@ -36,6 +36,10 @@ class BranchScene:
         """(height, width, 4) picture of the branches as they are bent now; time and wind move grass and clouds."""
         return self.renderer.draw(Frame(self.nobody, camera, time=time, wind=wind))
 
+    def draw_aside(self, camera: Camera) -> None:
+        """Draws the same and leaves it on the card."""
+        self.renderer.draw_aside(Frame(self.nobody, camera, wind=(4.0, 1.0)))
+
 
 def branch_scene(
     plants: Sequence[Plant],

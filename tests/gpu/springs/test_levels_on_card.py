@@ -51,12 +51,11 @@ def check_seats(card: GpuSimulation) -> None:
     assert seats == populations.sum()
 
 
-def test_levels_and_blends_are_those_of_the_cpu(soft_trees, soft_ladders, monkeypatch):
-    # The card counts steps; seconds would be rounded so that some blends end an interval later.
+def test_levels_and_blends_are_those_of_the_cpu(soft_trees, soft_ladders):
     simulation, card = both(stand_of(soft_trees, [30, 21]), soft_ladders, soft_trees)
-    way = -2.0 - 60.0 * (1.0 - np.cos(np.arange(100) / 16.0))
+    way = -2.0 - 60.0 * (1.0 - np.cos(np.arange(100) * 3.0 / 16.0))
     changes, worst, before = 0, [], simulation.placements_by_level
-    for _ in fly(simulation, card, way):
+    for _ in fly(simulation, card, way, seconds=0.1):
         for kind, levels in zip(simulation.kinds, card.levels_now, strict=True):
             assert np.array_equal(kind.at, levels)
         assert blending(card) == sum(len(kind.blends) for kind in simulation.kinds)
@@ -67,11 +66,13 @@ def test_levels_and_blends_are_those_of_the_cpu(soft_trees, soft_ladders, monkey
     check_seats(card)
     assert card.refused_count == 0
     assert changes > 8
-    # Both fit a group's pressure to its joints, the CPU in double precision and without a pull to rest.
-    assert np.quantile(worst, 0.5) < 1e-3
+    # Who has just been merged differs most: both fit a group's pressure to its joints, the CPU in double precision and
+    # without a pull to rest. 10 s of the farthest link in the stand: 1.5e-4, 7.3e-4, 1.2e-3 of the height; looked at
+    # thirty times a second, 1.6e-4, 8.9e-4 and 1.65e-3. Plants that keep their level: 5e-6 (test_springs_on_card.py).
+    assert (np.quantile(worst, (0.5, 0.95, 1.0)) < (2e-4, 9e-4, 1.5e-3)).all()
 
 
-def test_who_is_out_of_sight_is_spared_as_on_the_cpu(soft_trees, soft_ladders, monkeypatch):
+def test_who_is_out_of_sight_is_spared_as_on_the_cpu(soft_trees, soft_ladders):
     simulation, card = both(stand_of(soft_trees, [30, 21]), soft_ladders, soft_trees)
     around = [looking(15.0, 0.7 * turn) for turn in range(9)]
     seen = set()

@@ -28,7 +28,9 @@ fn advance(column: Column) {
         let b_gain = pace.x * cross(here.turn, joint.direction);
         carried[kept + stride] = settled(carried[kept + stride] + vec4f(b_gain, 0.0));
         let gained = pace.y * rise;
-        let after = clamp(before.xz + pace.x * (before.yw + gained), vec2f(-MOST_ANGLE), vec2f(MOST_ANGLE));
+        let inside = abs(before.xz) > vec2f(STOP_ANGLE);
+        let most = select(vec2f(STOP_EDGE), vec2f(MOST_ANGLE), inside);
+        let after = clamp(before.xz + pace.x * (before.yw + gained), -most, most);
         let rate = before.yw + gained + RATE_LEAD * gained;
         state[column.state + i * stride] = settled(vec4f(after.x, rate.x, after.y, rate.y));
     }

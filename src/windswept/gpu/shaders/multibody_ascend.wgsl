@@ -4,10 +4,11 @@
 //
 // Sums go from a link to its parent in registers where the parent comes next, through a slot at forks alone.
 
-// A thin rod, drag over velocity times the step's implicit part, which resists like a mass at the drag centre, and the
-// inertia that stands for the air's pull.
-fn with_link(beyond: Beyond, rod: Rod, b: vec3f, leaf: f32, wood: f32, stiff: f32) -> Beyond {
-    let air = added(across(b, wood), Tensor(leaf * rod.leaf_1.xyz, leaf * rod.leaf_2.xyz));
+// A thin rod, drag over velocity times the step's implicit part, which resists like a mass at the drag centre, what it
+// grows by, and the inertia that stands for the air's pull.
+fn with_link(beyond: Beyond, rod: Rod, b: vec3f, leaf: f32, wood: f32, growth: vec3f, stiff: f32) -> Beyond {
+    let still = added(across(b, wood), Tensor(leaf * rod.leaf_1.xyz, leaf * rod.leaf_2.xyz));
+    let air = minus_product(still, -growth, growth);
     let arm = rod.foot.w * b;
     let held = risen(air, arm);
     let half = levered(arm, 0.5 * held);
@@ -84,11 +85,13 @@ fn ascend(column: Column) {
         let joint = joint_in_world(rotation, rod, angles_ahead(state_now, ahead));
         beyond.force += pushed.xyz;
         beyond.torque += twisted.xyz;
-        let pull = length(records[record + 3u * stride].xyz);
-        beyond.pull += pull;
-        beyond.strain += rod.foot.w * pull;
-        let stiff = PULL_WEIGHT * ahead * ahead * beyond.strain;
-        beyond = with_link(beyond, rod, joint.direction, ahead * pushed.w, ahead * twisted.w, stiff);
+        let pull = records[record + 3u * stride];
+        beyond.pull += pull.xyz;
+        beyond.strain += pull.w;
+        var stiff = ahead * ahead * max(beyond.strain, 0.0);
+        stiff *= 1.0 + stiff / (stiff + PULL_KNEE * rod.mass.z);
+        let growth = sqrt(ahead) * records[record + 4u * stride].xyz;
+        beyond = with_link(beyond, rod, joint.direction, ahead * pushed.w, ahead * twisted.w, growth, stiff);
         beyond = give_way(beyond, joint, springs_of(rod, state_now, ahead), record, stride);
         if rod.rows.x == NONE { continue; }
         rotation = records[record_of(column, rod.rows.x)];

@@ -1,23 +1,28 @@
-// Root to leaf: where every link is half a step ahead, and the force on it, as motion/multibody/descend.py. Writes every
-// link's record: its rotation; force and leaf drag over velocity; moment and wood drag over velocity; the drag.
+// Root to leaf: where every link is `ahead` of the step's beginning, and the force on it, as motion/multibody/descend.py.
+// Writes every link's record: its rotation; force and leaf drag over velocity; moment and wood drag over velocity; the drag
+// and what it stiffens the link by; the vector whose square is what drag over velocity gains by growing with speed.
 
 fn air_at(column: Column, probe: u32, late: f32) -> vec4f {
     let row = column.wind + 2u * probe * column.stride;
     return mix(wind[row], wind[row + column.stride], late);
 }
 
-// Force that a link's mass asks for to follow the joints while none accelerates, less the drag, and its moment.
+// Force that takes a link's mass from its carried velocity to that of the joints, less the drag, and its moment.
 fn weigh_and_drag(rod: Rod, b: vec3f, velocity: vec3f, air: vec4f, pull: vec3f, b_pull: vec3f, record: u32, stride: u32) {
     let u = air.xyz - velocity;
     let speed = sqrt(dot(u, u) + TINY);
     let leaf = speed * air.w;
     let wood = speed * rod.leaf_1.w;
-    let drag = leaf * times(Tensor(rod.leaf_1.xyz, rod.leaf_2.xyz), u) + wood * (u - dot(b, u) * b);
+    let along = dot(b, u);
+    let drag = leaf * times(Tensor(rod.leaf_1.xyz, rod.leaf_2.xyz), u) + wood * (u - along * b);
+    let size = sqrt(dot(drag, drag) + TINY);
+    let growth = 0.5 * sqrt(size / speed) * (drag / size + u / speed);
     let force = rod.mass.x * pull + rod.mass.y * b_pull - drag;
     let torque = cross(b, rod.mass.y * pull + rod.mass.z * b_pull - rod.foot.w * drag);
     records[record + stride] = vec4f(force, leaf);
     records[record + 2u * stride] = vec4f(torque, wood);
-    records[record + 3u * stride] = vec4f(drag, 0.0);
+    records[record + 3u * stride] = vec4f(drag, rod.foot.w * (dot(drag, b) + along * wood));
+    records[record + 4u * stride] = vec4f(growth, 0.0);
 }
 
 fn descend(column: Column, late: f32) {

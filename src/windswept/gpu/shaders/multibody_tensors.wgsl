@@ -55,8 +55,8 @@ struct Beyond {
     mass: Tensor,        // force per acceleration, kg
     force: vec3f,        // that keeps all joints beyond as they turn, N
     torque: vec3f,       // the same about the joint, N m
-    pull: f32,           // of the air, N
-    strain: f32,         // that pull times its lever on the link that carries it, N m
+    pull: vec3f,         // of the air, N
+    strain: f32,         // what it stiffens the link by that carries it, N m
 }
 
 // The same about a point that lies -r away: turning + Q + Q^T with Q = [r] (coupling + [r] mass / 2)^T.
@@ -66,7 +66,7 @@ fn shifted(beyond: Beyond, r: vec3f) -> Beyond {
     here.turning = added(beyond.turning, doubled(levered(r, beyond.coupling + 0.5 * gain)));
     here.coupling = beyond.coupling + gain;
     here.torque += cross(r, beyond.force);
-    here.strain = length(r) * beyond.pull;
+    here.strain = dot(r, beyond.pull);
     return here;
 }
 
@@ -74,11 +74,11 @@ fn lay_down_sum(row: u32, stride: u32, beyond: Beyond) {
     slots[row] = vec4f(beyond.turning.diagonal, beyond.force.x);
     slots[row + stride] = vec4f(beyond.turning.aside, beyond.force.y);
     slots[row + 2u * stride] = vec4f(beyond.mass.diagonal, beyond.force.z);
-    slots[row + 3u * stride] = vec4f(beyond.mass.aside, beyond.pull);
+    slots[row + 3u * stride] = vec4f(beyond.mass.aside, beyond.strain);
     slots[row + 4u * stride] = vec4f(beyond.coupling[0], beyond.torque.x);
     slots[row + 5u * stride] = vec4f(beyond.coupling[1], beyond.torque.y);
     slots[row + 6u * stride] = vec4f(beyond.coupling[2], beyond.torque.z);
-    slots[row + 7u * stride] = vec4f(beyond.strain, 0.0, 0.0, 0.0);
+    slots[row + 7u * stride] = vec4f(beyond.pull, 0.0);
 }
 
 fn with_slot(beyond: Beyond, row: u32, stride: u32) -> Beyond {
@@ -95,7 +95,7 @@ fn with_slot(beyond: Beyond, row: u32, stride: u32) -> Beyond {
         added(beyond.mass, Tensor(c.xyz, d.xyz)),
         beyond.force + vec3f(a.w, b.w, c.w),
         beyond.torque + vec3f(x.w, y.w, z.w),
-        beyond.pull + d.w,
-        beyond.strain + slots[row + 7u * stride].x,
+        beyond.pull + slots[row + 7u * stride].xyz,
+        beyond.strain + d.w,
     );
 }

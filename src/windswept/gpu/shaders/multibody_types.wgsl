@@ -23,14 +23,15 @@ const FORKS = 4u;    // other links than the next hang on it
 const LATER = 8u;    // links after it hang on its parent too
 
 const CARRIED = 2u;  // rows of a link that last: velocity of its joint, m/s; rate of its direction, 1/s
-const RECORD = 4u;   // rows of a link within a step, see multibody_descend.wgsl and multibody_ascend.wgsl
+const RECORD = 5u;   // rows of a link within a step, see multibody_descend.wgsl and multibody_ascend.wgsl
 const SLOT = 8u;     // rows of a depth within a walk
 const REST_THRESHOLD = 1e-9;
 // As in motion/multibody/constants.py.
 const STOP_ANGLE = 1.5;
 const STOP_STIFFNESS = 30.0;
+const STOP_EDGE = 1.5001;
 const MOST_ANGLE = 2.0;
-const PULL_WEIGHT = 4.0;
+const PULL_KNEE = 4.0;
 const RATE_LEAD = 0.5;
 const TINY = 1e-30;
 

@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numba import njit
 
 from windswept.motion.lanes import FAST_MATH, WIDTH, clamped, load, settled, store
-from windswept.motion.multibody.constants import MOST_ANGLE, RATE_LEAD, REACH, REST_THRESHOLD
+from windswept.motion.multibody.constants import REACH
 from windswept.motion.multibody.descend import RECORD
+from windswept.motion.multibody.joint import within_stop
 from windswept.motion.registers import load3, store3
 from windswept.motion.rotation import add_scaled, cross, dot
 
 _F = np.float32
 _W = np.uintp(WIDTH)
 _THREE = np.uintp(3 * WIDTH)
-_LIMIT: Any = _F(MOST_ANGLE)
-_LEAD: Any = _F(RATE_LEAD)
-_THRESHOLD: Any = _F(REST_THRESHOLD)
 
 MOTION = np.uintp(9 * WIDTH)
 """Scratch of a depth: angular acceleration, the joint's acceleration, direction of the link (3 each)."""
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def advance(c, depth, joints, carried, a, motions, step, ahead):  # type: ignore[no-untyped-def]
+def advance(c, depth, joints, carried, a, motions, rules):  # type: ignore[no-untyped-def]
     """Steps all joints."""
     three = _THREE
     for i in range(len(depth)):
@@ -48,25 +44,29 @@ def advance(c, depth, joints, carried, a, motions, step, ahead):  # type: ignore
         b = load3(a, record)
         store3(a, here + three + three, b)
         kept = link * _W * np.uintp(6)
-        gain(carried, kept, pull, step)
-        gain(carried, kept + three, cross(spin, b), step)
+        gain(carried, kept, pull, rules)
+        gain(carried, kept + three, cross(spin, b), rules)
         joint = link * _W * np.uintp(4)
-        _move(joints, joint, rise_1, step, ahead)
-        _move(joints, joint + _W + _W, rise_2, step, ahead)
+        _move(joints, joint, rise_1, rules)
+        _move(joints, joint + _W + _W, rise_2, rules)
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def gain(carried, at, acceleration, step):  # type: ignore[no-untyped-def]
+def gain(carried, at, acceleration, rules):  # type: ignore[no-untyped-def]
     """A carried velocity gains by an acceleration."""
-    v = add_scaled(load3(carried, at), acceleration, step)
-    store3(carried, at, (settled(v[0], _THRESHOLD), settled(v[1], _THRESHOLD), settled(v[2], _THRESHOLD)))
+    v = add_scaled(load3(carried, at), acceleration, rules.step)
+    least = rules.rest_threshold
+    store3(carried, at, (settled(v[0], least), settled(v[1], least), settled(v[2], least)))
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def _move(joints, at, rise, step, ahead):  # type: ignore[no-untyped-def]
-    """One angle and its rate by an acceleration that is held over the step; see RATE_LEAD."""
-    rate = load(joints, at + _W)
-    gained = rise * ahead
-    angle = load(joints, at) + (rate + gained) * step
-    store(joints, at, settled(clamped(angle, _LIMIT), _THRESHOLD))
-    store(joints, at + _W, settled(rate + gained + gained * _LEAD, _THRESHOLD))
+def _move(joints, at, rise, rules):  # type: ignore[no-untyped-def]
+    """One angle and its rate by an acceleration that is held over the step; see RATE_LEAD and STOP_EDGE."""
+    angle, rate = load(joints, at), load(joints, at + _W)
+    gained = rise * rules.ahead
+    after = angle + (rate + gained) * rules.step
+    edge = clamped(after, rules.stop_edge)
+    deeper = clamped(after, rules.most_angle) - edge
+    after = edge + deeper * within_stop(angle - clamped(angle, rules.stop_angle))
+    store(joints, at, settled(after, rules.rest_threshold))
+    store(joints, at + _W, settled(rate + gained + gained * rules.rate_lead, rules.rest_threshold))

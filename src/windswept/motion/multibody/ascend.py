@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from windswept.motion.lanes import FAST_MATH, WIDTH, clamped, load, store
+from windswept.motion.lanes import FAST_MATH, WIDTH, at_least, clamped, load, sqrt, store
 from windswept.motion.multibody.constants import (
     DRAG_LEAF,
     INERTIA,
@@ -20,14 +20,12 @@ from windswept.motion.multibody.constants import (
     LEVER,
     MASS,
     MOMENT,
-    PULL_WEIGHT,
     REACH,
     STIFFNESS_1,
     STIFFNESS_2,
-    STOP_ANGLE,
-    STOP_STIFFNESS,
 )
-from windswept.motion.multibody.descend import RECORD, STRAIN
+from windswept.motion.multibody.descend import GROWTH, PULL, RECORD, STRAIN
+from windswept.motion.multibody.joint import within_stop
 from windswept.motion.multibody.tensors import (
     across,
     added,
@@ -45,16 +43,12 @@ _F = np.float32
 _W = np.uintp(WIDTH)
 _THREE = np.uintp(3 * WIDTH)
 _ONE: Any = _F(1.0)
-_TINY = _F(1e-30)
-_STOP: Any = _F(STOP_ANGLE)
-_HARD: Any = _F(STOP_STIFFNESS)
-_AT_ONCE = _F(1e12)
-_WEIGHT: Any = _F(PULL_WEIGHT)
+_ZERO: Any = _F(0.0)
 
-SUM = np.uintp(29 * WIDTH)
+SUM = np.uintp(31 * WIDTH)
 """Scratch of a depth: articulated inertia (turning 6, coupling 9, mass 6), force, moment (3 each), the pull of the air
-and that times its lever (1 each)."""
-_PULL = np.uintp(27 * WIDTH)
+(3) and what it stiffens the carrier by (1)."""
+_PULL, _STRAIN = np.uintp(27 * WIDTH), np.uintp(30 * WIDTH)
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
@@ -97,15 +91,17 @@ def store_sum(a, to, since, turning, coupling, mass, force, moment):  # type: ig
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def with_link(c, link, turning, coupling, mass, b, leaf, wood, stiff):  # type: ignore[no-untyped-def]
+def with_link(c, link, turning, coupling, mass, b, leaf, wood, growth, stiff):  # type: ignore[no-untyped-def]
     """Articulated inertia beyond a joint, with the joint's own link: a thin rod, ``leaf`` and ``wood`` drag over
-    velocity times the step's implicit part, which resists like a mass at the drag centre, and the inertia ``stiff``.
+    velocity times the step's implicit part, which resists like a mass at the drag centre, ``growth``, whose square adds
+    to it, and the inertia ``stiff``.
     """
     lever, moment = c[link, LEVER], c[link, MOMENT]
     hold = across(b, wood)
     xx, yy, zz = constant3(c, link, DRAG_LEAF)
     xy, xz, yz = constant3(c, link, DRAG_LEAF + 3)
     air = added(hold, (leaf * xx, leaf * yy, leaf * zz, leaf * xy, leaf * xz, leaf * yz))
+    air = minus_product(air, (-growth[0], -growth[1], -growth[2]), growth)
     risen = rise(air, (b[0] * lever, b[1] * lever, b[2] * lever))
     zero = b[0] * _F(0.0)
     x, y, z = b[0] * moment, b[1] * moment, b[2] * moment
@@ -120,13 +116,12 @@ def with_link(c, link, turning, coupling, mass, b, leaf, wood, stiff):  # type: 
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def spring(c, link, stiffness, joints, at, ahead):  # type: ignore[no-untyped-def]
+def spring(c, link, stiffness, joints, at, rules):  # type: ignore[no-untyped-def]
     """Torque of one spring, its damper and its stop for a rate that stays, and what an acceleration adds to it."""
-    lag, angle = ahead + c[link, LAG], load(joints, at)
-    over = angle - clamped(angle, _STOP)
-    harder = clamped(over * over * _AT_ONCE, _ONE) * _HARD
-    k, lag = c[link, stiffness], (harder + _ONE) * lag
-    return -(k * (angle + over * _HARD + load(joints, at + _W) * lag)), k * ahead * lag
+    angle, rate, lag = load(joints, at), load(joints, at + _W), rules.ahead + c[link, LAG]
+    over = angle - clamped(angle, rules.stop_angle)
+    k, lag = c[link, stiffness], (within_stop(over) * rules.stop_stiffness + _ONE) * lag
+    return -(k * (angle + over * rules.stop_stiffness + rate * lag)), k * rules.ahead * lag
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
@@ -146,11 +141,11 @@ def mixed(a, b, s, t):  # type: ignore[no-untyped-def]
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def yielding(c, link, joints, axis_1, axis_2, turn_1, turn_2, moment, ahead):  # type: ignore[no-untyped-def]
+def yielding(c, link, joints, axis_1, axis_2, turn_1, turn_2, moment, rules):  # type: ignore[no-untyped-def]
     """D^-1 (11, 22, 12), and both accelerations of a joint whose parent does not accelerate."""
     joint = link * _W * np.uintp(4)
-    torque_1, kappa_1 = spring(c, link, STIFFNESS_1, joints, joint, ahead)
-    torque_2, kappa_2 = spring(c, link, STIFFNESS_2, joints, joint + _W + _W, ahead)
+    torque_1, kappa_1 = spring(c, link, STIFFNESS_1, joints, joint, rules)
+    torque_2, kappa_2 = spring(c, link, STIFFNESS_2, joints, joint + _W + _W, rules)
     torque_1, torque_2 = torque_1 - dot(axis_1, moment), torque_2 - dot(axis_2, moment)
     d_1, d_2, d_12 = dot(axis_1, turn_1) + kappa_1, dot(axis_2, turn_2) + kappa_2, dot(axis_1, turn_2)
     per = _F(1.0) / (d_1 * d_2 - d_12 * d_12)
@@ -159,7 +154,7 @@ def yielding(c, link, joints, axis_1, axis_2, turn_1, turn_2, moment, ahead):  #
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def give_way(c, link, joints, a, record, inertia, force, moment, ahead):  # type: ignore[no-untyped-def]
+def give_way(c, link, joints, a, record, inertia, force, moment, rules):  # type: ignore[no-untyped-def]
     """Writes a joint's answer (both rows of D^-1 U^T, both accelerations) to its link's record; gives inertia, force
     and moment as they are felt through the joint.
     """
@@ -167,7 +162,7 @@ def give_way(c, link, joints, a, record, inertia, force, moment, ahead):  # type
     axis_1, axis_2 = load3(a, record + _THREE), load3(a, record + _THREE + _THREE)
     turn_1, turn_2 = times(turning, axis_1), times(turning, axis_2)
     push_1, push_2 = through(coupling, axis_1), through(coupling, axis_2)
-    e_1, e_2, e_12, rise_1, rise_2 = yielding(c, link, joints, axis_1, axis_2, turn_1, turn_2, moment, ahead)
+    e_1, e_2, e_12, rise_1, rise_2 = yielding(c, link, joints, axis_1, axis_2, turn_1, turn_2, moment, rules)
     answer_1, answer_2 = mixed(turn_1, turn_2, e_1, e_12), mixed(turn_1, turn_2, e_12, e_2)
     yield_1, yield_2 = mixed(push_1, push_2, e_1, e_12), mixed(push_1, push_2, e_12, e_2)
     rest = record + _THREE * np.uintp(3)
@@ -189,22 +184,22 @@ def give_way(c, link, joints, a, record, inertia, force, moment, ahead):  # type
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def stiffen(c, link, a, record, children, to, since):  # type: ignore[no-untyped-def]
-    """Adds the pull of the air on a link and all beyond it to a slot; gives what it stiffens the link by, N m.
+def stiffen(c, link, a, record, children, to, since, b):  # type: ignore[no-untyped-def]
+    """Adds the pull of the air on a link and all beyond it to a slot of the link's carrier, which points along ``b``;
+    gives what it stiffens the link by, N m.
 
-    Every force counts in full, wherever it points to: where it does not pull, what it adds is far less than the wood.
+    A pull resists the turning of a link by its component along the link times its lever; what pushes it over is left to
+    the forces.
     """
-    strain = load(a, record + STRAIN)
-    pull = load(a, children + _PULL) + strain / (c[link, LEVER] + _TINY)
-    strain = strain + load(a, children + _PULL + _W)
-    to, since = to + _PULL, since + _PULL
-    store(a, to, load(a, since) + pull)
-    store(a, to + _W, load(a, since + _W) + pull * c[link, REACH])
-    return strain
+    pull = add_scaled(load3(a, record + PULL), load3(a, children + _PULL), _ONE)
+    strain = load(a, record + STRAIN) + load(a, children + _STRAIN)
+    store3(a, to + _PULL, add_scaled(load3(a, since + _PULL), pull, _ONE))
+    store(a, to + _STRAIN, load(a, since + _STRAIN) + dot(pull, b) * c[link, REACH])
+    return at_least(strain, _ZERO)
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def ascend(c, depth, source, joints, a, sums, ahead):  # type: ignore[no-untyped-def]
+def ascend(c, depth, source, joints, a, sums, rules):  # type: ignore[no-untyped-def]
     """Replaces force and moment in every link's record by the joint's answer.
 
     Args:
@@ -214,25 +209,30 @@ def ascend(c, depth, source, joints, a, sums, ahead):  # type: ignore[no-untyped
         joints: angles and rates.
         a: scratch.
         sums: where the sums begin.
-        ahead: how far into the step forces are taken, s.
+        rules: of the step.
     """
+    ahead = rules.ahead
+    root = sqrt(ahead)
     for i in range(len(depth)):
         link = np.uintp(len(depth) - 1 - i)
         record = link * RECORD
         rest = record + _THREE * np.uintp(3)
         children = sums + np.uintp(source[link, 0]) * SUM
         to, since = sums + np.uintp(depth[link]) * SUM, sums + np.uintp(source[link, 1]) * SUM
+        b, reach = load3(a, np.uintp(source[link, 2]) * RECORD), c[link, REACH]
         turning, coupling, mass, force, moment = load_sum(a, children)
-        stiff = stiffen(c, link, a, record, children, to, since) * ahead * ahead * _WEIGHT
+        stiff = stiffen(c, link, a, record, children, to, since, b) * (ahead * ahead)
+        stiff = stiff * (_ONE + stiff / (stiff + c[link, INERTIA] * rules.pull_knee))
         force = add_scaled(force, load3(a, rest), _ONE)
         moment = add_scaled(moment, load3(a, rest + _THREE), _ONE)
         leaf = load(a, rest + _THREE + _THREE) * ahead
         wood = load(a, rest + _THREE + _THREE + _W) * ahead
-        inertia = with_link(c, link, turning, coupling, mass, load3(a, record), leaf, wood, stiff)
+        g = load3(a, record + GROWTH)
+        growth = (g[0] * root, g[1] * root, g[2] * root)
+        inertia = with_link(c, link, turning, coupling, mass, load3(a, record), leaf, wood, growth, stiff)
         turning, coupling, mass, force, moment = give_way(
-            c, link, joints, a, record, inertia, force, moment, ahead
+            c, link, joints, a, record, inertia, force, moment, rules
         )
-        b, reach = load3(a, np.uintp(source[link, 2]) * RECORD), c[link, REACH]
         r = (b[0] * reach, b[1] * reach, b[2] * reach)
         turning, coupling = moved(turning, coupling, mass, r)
         moment = add_scaled(moment, cross(r, force), _ONE)

@@ -1,12 +1,11 @@
-"""Root to leaf: where every link is half a step ahead, how it moves, and the force and moment on it.
+"""Root to leaf: where every link is ``ahead`` of the step's beginning, how it moves, and the force and moment on it.
 
-The force is what the link's mass asks for to follow the joints while none accelerates (centrifugal and gyroscopic
-terms), less the drag. World-aligned axes at each joint: nothing is rotated on the way from link to link.
+The force is what takes the link's mass from the velocity that it carries to the one that its joints' rates give it
+where they will stand, within ``ahead`` (51 % of the warped step at 120 a second), less the drag. Centrifugal and
+gyroscopic terms are in that difference. World-aligned axes at each joint: nothing is rotated from link to link.
 """
 
 from __future__ import annotations
-
-from typing import Any
 
 import numpy as np
 from numba import njit
@@ -23,7 +22,6 @@ from windswept.motion.multibody.constants import (
     LEVER,
     MASS,
     MOMENT,
-    MOST_ANGLE,
     REACH,
 )
 from windswept.motion.multibody.joint import half_turn, joint_axes
@@ -33,38 +31,52 @@ from windswept.motion.rotation import add_scaled, cross, dot, multiply, rotate
 _F = np.float32
 _W = np.uintp(WIDTH)
 _TINY = _F(1e-30)
-_LIMIT: Any = _F(MOST_ANGLE)
 
 RECORD = np.uintp(24 * WIDTH)
 """Scratch of a link: direction, both joint axes (3 each); then first force, moment (3 each), drag of leaves and of wood
-per velocity (1 each), later both rows of the joint's answer (6 each) and its own acceleration (2); strain (1)."""
-STRAIN = np.uintp(23 * WIDTH)
-"""Place in a record of the air's force on a link and its groups, each times its lever, N m."""
+per velocity (1 each), pull (3), strain (1), growth of the drag (3), later both rows of the joint's answer (6 each) and
+its own acceleration (2)."""
+PULL, STRAIN, GROWTH = np.uintp(17 * WIDTH), np.uintp(20 * WIDTH), np.uintp(21 * WIDTH)
+"""Places in a record: force of the air on a link and its groups, N; what it stiffens the link by, N m; see ``drag``."""
 SLOT = np.uintp(13 * WIDTH)
 """Scratch of a depth: rotation (4), angular velocity, joint velocity, rate of the direction (3 each)."""
-
-
-@njit(fastmath=FAST_MATH, forceinline=True)
-def drag(c, link, air, v, b):  # type: ignore[no-untyped-def]
-    """Force of the air on a link with direction b and velocity v at its drag centre; drag over velocity of its leaves'
-    tensor and of its wood.
-    """
-    u = add_scaled(air, v, _F(-1.0))
-    speed = sqrt(dot(u, u) + _TINY)
-    leaf, wood = speed * air[3], speed * c[link, DRAG_WOOD]
-    on_leaf, u = tensor_times(c, link, DRAG_LEAF, u), add_scaled(u, b, -dot(b, u))
-    force = (
-        on_leaf[0] * leaf + u[0] * wood,
-        on_leaf[1] * leaf + u[1] * wood,
-        on_leaf[2] * leaf + u[2] * wood,
-    )
-    return force, leaf, wood
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
 def length(v):  # type: ignore[no-untyped-def]
     """Of a vector."""
     return sqrt(dot(v, v) + _TINY)
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def drag(c, link, air, v, b):  # type: ignore[no-untyped-def]
+    """Force of the air on a link with direction b and velocity v at its drag centre; drag over velocity of its leaves'
+    tensor and of its wood; the vector whose square is what drag per velocity gains by growing with speed; and what the
+    force stiffens the link by over its lever.
+
+    Of F = |u| T u the first derivative is |u| T and F u^T / |u|, of which the symmetric part's positive part is taken:
+    |F| / |u| times the square of half of F / |F| + u / |u|. Wood is blown across alone, so its force turns back a link
+    that points downwind, by the square of the wind along it.
+    """
+    u = add_scaled(air, v, _F(-1.0))
+    speed = length(u)
+    leaf, wood = speed * air[3], speed * c[link, DRAG_WOOD]
+    along = dot(b, u)
+    on_leaf, on_wood = tensor_times(c, link, DRAG_LEAF, u), add_scaled(u, b, -along)
+    force = (
+        on_leaf[0] * leaf + on_wood[0] * wood,
+        on_leaf[1] * leaf + on_wood[1] * wood,
+        on_leaf[2] * leaf + on_wood[2] * wood,
+    )
+    size = length(force)
+    half = sqrt(size / speed) * _F(0.5)
+    per_force, per_speed = half / size, half / speed
+    growth = (
+        force[0] * per_force + u[0] * per_speed,
+        force[1] * per_force + u[1] * per_speed,
+        force[2] * per_force + u[2] * per_speed,
+    )
+    return force, leaf, wood, growth, dot(force, b) + along * wood
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
@@ -78,12 +90,12 @@ def combined(frame, v):  # type: ignore[no-untyped-def]
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def turn_joint(c, link, joints, ahead, a, above, here):  # type: ignore[no-untyped-def]
+def turn_joint(c, link, joints, rules, a, above, here):  # type: ignore[no-untyped-def]
     """Turns a link's joint: writes its rotation; gives its direction, axes and rate of turn in the world."""
     joint = link * _W * np.uintp(4)
     rate_1, rate_2 = load(joints, joint + _W), load(joints, joint + _W * np.uintp(3))
-    angle_1 = clamped(load(joints, joint) + rate_1 * ahead, _LIMIT)
-    angle_2 = clamped(load(joints, joint + _W + _W) + rate_2 * ahead, _LIMIT)
+    angle_1 = clamped(load(joints, joint) + rate_1 * rules.ahead, rules.most_angle)
+    angle_2 = clamped(load(joints, joint + _W + _W) + rate_2 * rules.ahead, rules.most_angle)
     x = angle_1 * angle_1 + angle_2 * angle_2
     s, cosine = half_turn(x)
     first, second = constant3(c, link, AXIS_1), constant3(c, link, AXIS_2)
@@ -128,13 +140,13 @@ def carry(carried, at, now, per_ahead, beyond):  # type: ignore[no-untyped-def]
 
 @njit(fastmath=FAST_MATH, forceinline=True)
 def weigh(c, link, b, pull, b_pull, drag_force):  # type: ignore[no-untyped-def]
-    """Force and moment that a link's mass asks for to follow the joints while none accelerates, less the drag.
+    """Force and moment that take a link's mass from its carried velocities to those of the joints, less the drag.
 
     Args:
         c: constants.
         link: which.
         b: its direction.
-        pull: acceleration of its joint.
+        pull: what its joint's velocity in the joints' motion is beyond the carried one, over ``ahead``.
         b_pull: that of its direction.
         drag_force: at its drag centre.
     """
@@ -155,7 +167,7 @@ def weigh(c, link, b, pull, b_pull, drag_force):  # type: ignore[no-untyped-def]
 @njit(fastmath=FAST_MATH, forceinline=True)
 def groups_on(crowd, first, last, groups, wind, a, here, spin, v):  # type: ignore[no-untyped-def]
     """Swings a range of groups; gives their force and moment about the joint of the link that carries them, and the
-    sum of every force times its lever.
+    sum of every force along its lever.
 
     Args:
         crowd: constants of the groups, and their probes.
@@ -171,17 +183,17 @@ def groups_on(crowd, first, last, groups, wind, a, here, spin, v):  # type: igno
     g, group_probe = crowd
     zero = spin[0] * _F(0.0)
     force, moment, strain = (zero, zero, zero), (zero, zero, zero), zero
+    q = load4(a, here)
     for k in range(first, last):
-        carrier = (load4(a, here), (zero, zero, zero), spin, v)
-        on = swing_group(g, k, air_of_group(wind, group_probe[k]), groups, carrier)
+        on = swing_group(g, k, air_of_group(wind, group_probe[k]), groups, (q, (zero, zero, zero), spin, v))
         force, moment = add_scaled(force, on[0], _F(1.0)), add_scaled(moment, on[1], _F(1.0))
-        strain = strain + length(on[0]) * length(constant3(g, k, CENTRE))
+        strain = strain + dot(on[0], rotate(q, constant3(g, k, CENTRE)))
     return force, moment, strain
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
 def descend(  # type: ignore[no-untyped-def]
-    c, depth, probe, crowd, group_start, joints, groups, carried, wind, a, slots, ahead, beyond
+    c, depth, probe, crowd, group_start, joints, groups, carried, wind, a, slots, rules
 ):
     """Writes the record of every link, as the way from leaf to root reads it.
 
@@ -198,18 +210,17 @@ def descend(  # type: ignore[no-untyped-def]
         wind: air velocity and leaf reconfiguration at the probes.
         a: scratch.
         slots: where the slots of the depths begin.
-        ahead: how far into the step forces are taken, s.
-        beyond: the step over that.
+        rules: of the step.
     """
     three, four, seven = _W * np.uintp(3), _W * np.uintp(4), _W * np.uintp(7)
-    per_ahead = _F(1.0) / ahead
+    per_ahead, beyond = _F(1.0) / rules.ahead, rules.step / rules.ahead
     ground = load3(a, slots + four)
     groups_on(crowd, group_start[0], group_start[1], groups, wind, a, slots, ground, ground)
     for i in range(len(depth)):
         link = np.uintp(i)
         above = slots + np.uintp(depth[link]) * SLOT
         here = above + SLOT
-        b, axis_1, axis_2, turning = turn_joint(c, link, joints, ahead, a, above, here)
+        b, axis_1, axis_2, turning = turn_joint(c, link, joints, rules, a, above, here)
         spin = add_scaled(load3(a, above + four), turning, _F(1.0))
         v = add_scaled(load3(a, above + seven), load3(a, above + seven + three), c[link, REACH])
         b_rate = cross(spin, b)
@@ -220,13 +231,14 @@ def descend(  # type: ignore[no-untyped-def]
         pull = carry(carried, kept, v, per_ahead, beyond)
         b_pull = carry(carried, kept + three, b_rate, per_ahead, beyond)
         air = load4(wind, np.uintp(probe[link]) * four)
-        force, leaf, wood = drag(c, link, air, add_scaled(v, b_rate, c[link, LEVER]), b)
+        blown, leaf, wood, growth, strain = drag(c, link, air, add_scaled(v, b_rate, c[link, LEVER]), b)
         on = groups_on(crowd, group_start[i + 1], group_start[i + 2], groups, wind, a, here, spin, v)
-        strain = length(force) * c[link, LEVER] + on[2]
-        force, moment = weigh(c, link, b, pull, b_pull, force)
+        force, moment = weigh(c, link, b, pull, b_pull, blown)
         force, moment = add_scaled(force, on[0], _F(-1.0)), add_scaled(moment, on[1], _F(-1.0))
         record = link * RECORD
-        store(a, record + STRAIN, strain)
+        store3(a, record + PULL, add_scaled(blown, on[0], _F(1.0)))
+        store(a, record + STRAIN, strain * c[link, LEVER] + on[2])
+        store3(a, record + GROWTH, growth)
         for vector in (b, axis_1, axis_2, force, moment):
             store3(a, record, vector)
             record += three

@@ -12,10 +12,12 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from windswept.motion.lanes import FAST_MATH
+from windswept.motion.lanes import FAST_MATH, clamped
 from windswept.motion.rotation import Vector
 
 _F = np.float32
+_AT_ONCE = _F(1e12)
+_ONE: Any = _F(1.0)
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
@@ -43,3 +45,9 @@ def joint_axes(angle_1: Any, angle_2: Any, x: Any, s: Any) -> tuple[Vector, Vect
         _F(1.0) - one * angle_1,
         lean * angle_1,
     )
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def within_stop(over: Any) -> Any:
+    """1 in a joint's stop, 0 outside, from the angle beyond its beginning."""
+    return clamped(over * over * _AT_ONCE, _ONE)

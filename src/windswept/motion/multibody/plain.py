@@ -13,9 +13,11 @@ from scipy.spatial.transform import Rotation
 
 from windswept.motion.model import Model, joint_lag
 from windswept.motion.multibody.constants import (
-    PULL_WEIGHT,
+    MOST_ANGLE,
+    PULL_KNEE,
     RATE_LEAD,
     STOP_ANGLE,
+    STOP_EDGE,
     STOP_STIFFNESS,
     forces_at,
     warped_step,
@@ -112,32 +114,34 @@ def step_multibody_plain(
     step, ahead = warped_step(model), forces_at(model)
     moving = kinematics(model, angles + ahead * rates, rates)
     force, resistance = drag_plain(model, moving, wind)
+    growth, strain = (of(model, moving, force, wind) for of in (growth_plain, strain_plain))
     if push is not None:
         force = force + push
     lever = model.drag.centre * model.skeleton.length
     centre = moving.jacobian[:, 0] + lever[:, None, None] * moving.jacobian[:, 1]
     held = np.einsum("lij,ljx->lix", rod_moments(model), (moving.velocity - carried) / ahead)
-    stiffness, over = 1.0 / model.rods.compliance.ravel(), angles - np.clip(angles, -STOP_ANGLE, STOP_ANGLE)
-    lag = (ahead + np.repeat(joint_lag(model), 2)) * (1.0 + STOP_STIFFNESS * (over.ravel() != 0.0))
+    stiffness, over = 1.0 / model.rods.compliance, angles - np.clip(angles, -STOP_ANGLE, STOP_ANGLE)
+    lag = (ahead + joint_lag(model)[:, None]) * (1.0 + STOP_STIFFNESS * (over != 0.0))
     torque = np.einsum("lxm,lx->m", centre, force) - np.einsum("lixm,lix->m", moving.jacobian, held)
-    torque -= stiffness * ((angles + STOP_STIFFNESS * over).ravel() + lag * rates.ravel())
-    matrix = mass_matrix(model, moving) + np.diag(stiffness * ahead * lag)
+    torque -= (stiffness * (angles + STOP_STIFFNESS * over + lag * rates)).ravel()
+    matrix = mass_matrix(model, moving) + np.diag((stiffness * ahead * lag).ravel())
+    resistance = resistance + growth
     matrix += ahead * np.einsum("lxm,lxy,lyn->mn", centre, resistance, centre, optimize=True)
-    turning = PULL_WEIGHT * ahead**2 * strain_plain(model, np.linalg.norm(force, axis=1))
+    pull = ahead**2 * strain
+    turning = pull * (1.0 + pull / (pull + PULL_KNEE * model.rods.inertia))
     matrix += np.einsum("lxm,l,lxn->mn", moving.jacobian[:, 1], turning, moving.jacobian[:, 1], optimize=True)
     rise = np.linalg.solve(matrix, torque)
     carried = carried + (moving.velocity + ahead * moving.jacobian @ rise - carried) * (step / ahead)
     rise = rise.reshape(-1, 2)
     middle = rates + ahead * rise
-    return angles + step * middle, middle + RATE_LEAD * ahead * rise, carried
+    most = np.where(over != 0.0, MOST_ANGLE, STOP_EDGE)
+    return np.clip(angles + step * middle, -most, most), middle + RATE_LEAD * ahead * rise, carried
 
 
 def drag_plain(model: Model, moving: Kinematics, wind: Doubles) -> tuple[Doubles, Doubles]:
     """(L, 3) force of the air on every link, N, and (L, 3, 3) the same over relative velocity, N s/m."""
-    drag = model.drag
-    lever = (drag.centre * model.skeleton.length)[:, None]
+    drag, relative = model.drag, relative_air(model, moving, wind)
     air = wind[model.link_probe]
-    relative = air - moving.velocity[:, 0] - lever * moving.velocity[:, 1]
     speed = np.linalg.norm(relative, axis=1)
     folded = reconfiguration(model.material, np.linalg.norm(air, axis=1)).astype(np.float64)
     b = moving.direction
@@ -148,19 +152,37 @@ def drag_plain(model: Model, moving: Kinematics, wind: Doubles) -> tuple[Doubles
     return np.einsum("lxy,ly->lx", resistance, relative), resistance
 
 
-def strain_plain(model: Model, pull: Doubles) -> Doubles:
-    """(L,) sum of all forces (L,) beyond every link's joint, N, times their levers on the link, N m."""
-    skeleton = model.skeleton
-    pull, strain = pull.copy(), pull * model.drag.centre * skeleton.length
+def growth_plain(model: Model, moving: Kinematics, force: Doubles, wind: Doubles) -> Doubles:
+    """(L, 3, 3) what (L, 3) drag over velocity gains by growing with speed, N s/m; see ``descend.drag``."""
+    relative = relative_air(model, moving, wind)
+    size, speed = (np.maximum(np.linalg.norm(v, axis=1), 1e-15)[:, None] for v in (force, relative))
+    half = 0.5 * np.sqrt(size / speed) * (force / size + relative / speed)
+    return np.asarray(half[:, :, None] * half[:, None, :])
+
+
+def relative_air(model: Model, moving: Kinematics, wind: Doubles) -> Doubles:
+    """(L, 3) velocity of the air past every drag centre, m/s."""
+    lever = (model.drag.centre * model.skeleton.length)[:, None]
+    return wind[model.link_probe] - moving.velocity[:, 0] - lever * moving.velocity[:, 1]
+
+
+def strain_plain(model: Model, moving: Kinematics, force: Doubles, wind: Doubles) -> Doubles:
+    """(L,) what (L, 3) forces of the air on all links stiffen every link by, N m: the pull along it times its lever."""
+    skeleton, b = model.skeleton, moving.direction
+    lever = model.drag.centre * skeleton.length
+    u = relative_air(model, moving, wind)
+    along_wood = np.linalg.norm(u, axis=1) * model.drag.wood * np.sum(u * b, axis=1)
+    pull, strain = force.copy(), lever * (np.sum(force * b, axis=1) + along_wood)
     for link in range(model.link_count - 1, 0, -1):
         up = skeleton.parent[link]
         if up >= 0:
             pull[up] += pull[link]
-            strain[up] += pull[link] * skeleton.attach[link] * skeleton.length[up]
-    return strain
+            strain[up] += pull[link] @ b[up] * skeleton.attach[link] * skeleton.length[up]
+    return np.maximum(strain, 0.0)
 
 
 def energy(model: Model, angles: Doubles, carried: Doubles) -> float:
-    """Kinetic energy of (L, 2, 3) carried velocities and that of the springs at (L, 2) angles, J."""
+    """Kinetic energy of (L, 2, 3) carried velocities and that of springs and stops at (L, 2) angles, J."""
     kinetic = 0.5 * np.einsum("lix,lij,ljx->", carried, rod_moments(model), carried)
-    return float(kinetic + 0.5 * np.sum(angles**2 / model.rods.compliance))
+    over = angles - np.clip(angles, -STOP_ANGLE, STOP_ANGLE)
+    return float(kinetic + 0.5 * np.sum((angles**2 + STOP_STIFFNESS * over**2) / model.rods.compliance))

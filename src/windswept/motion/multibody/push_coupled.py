@@ -31,7 +31,12 @@ def push_coupled(
         link: which link is hit.
         impulse: (3,) in the plant's frame, N s.
         along: where on the link, 0 at its base, 1 at its tip.
+
+    Raises:
+        ValueError: a state of merged branches, which are not joints that a push could turn.
     """
+    if state.joints.shape[1] != model.link_count or state.groups.shape[1]:
+        raise ValueError("a push needs every link: the state is of a level with merged branches")
     tile, lane = divmod(placement, WIDTH)
     joints, _, carried = (part[tile, ..., lane] for part in state.parts)
     gain = _rate_gain(model, joints, carried, link, _carried_gain(model, link, impulse, along))

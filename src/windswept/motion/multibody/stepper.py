@@ -10,8 +10,9 @@ from windswept.motion.level import Level, finest_level
 from windswept.motion.model import Model
 from windswept.motion.multibody.advance import MOTION, advance
 from windswept.motion.multibody.ascend import SUM, ascend
-from windswept.motion.multibody.constants import forces_at, pack_level, warped_step
+from windswept.motion.multibody.constants import pack_level
 from windswept.motion.multibody.descend import RECORD, SLOT, descend
+from windswept.motion.multibody.rules import step_rules
 from windswept.motion.springs import pack_wind
 from windswept.motion.state import CoupledState, State
 from windswept.plants.plant import Floats, Ints
@@ -33,8 +34,7 @@ def _step_tiles(  # type: ignore[no-untyped-def]
     wind,
     scratch,
     starts,
-    step,
-    ahead,
+    rules,
     first,
     last,
     interval,
@@ -59,11 +59,10 @@ def _step_tiles(  # type: ignore[no-untyped-def]
                 now,
                 a,
                 slots,
-                ahead,
-                step / ahead,
+                rules,
             )
-            ascend(c, depth, source, joints[tile], a, sums, ahead)
-            advance(c, depth, joints[tile], carried[tile], a, motions, step, ahead)
+            ascend(c, depth, source, joints[tile], a, sums, rules)
+            advance(c, depth, joints[tile], carried[tile], a, motions, rules)
 
 
 class MultibodyStepper:
@@ -77,7 +76,7 @@ class MultibodyStepper:
     def __init__(self, model: Model, level: Level | None = None) -> None:
         self.level = finest_level(model) if level is None else level
         self._constants = pack_level(model, self.level)
-        self._step, self._ahead = _F(warped_step(model)), _F(forces_at(model))
+        self._rules = step_rules(model)
         self._source = sum_sources(self.level)
         self._scratch, self._starts = _scratch(self.level)
 
@@ -93,6 +92,9 @@ class MultibodyStepper:
         """Advances a state by ``substeps`` inner steps; arguments as in ``springs.Stepper.step``."""
         assert isinstance(state, CoupledState)
         level, tiles = self.level, len(state.joints)
+        if tiles == 0:
+            state.step_count += substeps
+            return state
         wind = np.stack([pack_wind(level, wind_before), pack_wind(level, wind_after)], axis=1)
         _step_tiles(
             self._constants,
@@ -107,8 +109,7 @@ class MultibodyStepper:
             wind,
             self._scratch,
             self._starts,
-            self._step,
-            self._ahead,
+            self._rules,
             taken,
             taken + substeps,
             float(interval or substeps),

@@ -13,6 +13,8 @@ class ImportReport:
     """Which kind of file it was, as "Arbaro XML"."""
     taken: list[str] = field(default_factory=list)
     """Keys of the file that were taken over."""
+    taken_rows: int = 0
+    """Rows that were taken over, of a file that is a table without keys."""
     defaulted: list[str] = field(default_factory=list)
     """Keys of the species form that the file does not give."""
     clamped: list[str] = field(default_factory=list)
@@ -24,7 +26,7 @@ class ImportReport:
 
     def lines(self) -> list[str]:
         """The report for people; what is empty is left out."""
-        counted = [f"{self.format}: {len(self.taken)} values taken"]
+        counted = [f"{self.format}: {self._taken()} taken"]
         named = (
             ("clamped", self.clamped),
             ("repaired", self.repaired),
@@ -32,3 +34,8 @@ class ImportReport:
             ("defaulted", self.defaulted),
         )
         return counted + [f"{title}: {', '.join(entries)}" for title, entries in named if entries]
+
+    def _taken(self) -> str:
+        """How many of what were taken over."""
+        count, noun = (self.taken_rows, "row") if self.taken_rows else (len(self.taken), "value")
+        return f"{count:,} {noun}{'' if count == 1 else 's'}"

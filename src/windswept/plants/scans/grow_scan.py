@@ -64,7 +64,7 @@ def grow_scan(
     bare = build_stems(cylinders, joined, identifier(path.stem), seed, material or Material())
     area = usual_leaf_area(bare) if leaf_area is None else leaf_area
     plant = add_leaves(bare, area, np.random.default_rng(seed), angles)
-    report.taken.append(f"{cylinders.count:,} cylinders")
+    report.taken_rows = cylinders.count
     if leaf_area is None:
         report.defaulted += [f"leaf area {area:.0f} m^2", "material"]
     validate(plant)

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from windswept.errors import BudgetError, InputError
+from windswept.errors import BudgetError
+from windswept.plants.check_seed import check_seed
 from windswept.plants.plant import Floats
 from windswept.plants.underbrush.blade import Blade, Doubles, build_blade
 from windswept.plants.underbrush.form import Component, UnderbrushSpecies
@@ -32,8 +33,7 @@ def grow_tuft(species: UnderbrushSpecies, seed: int = 0) -> Tuft:
         InputError: a negative seed.
         BudgetError: more than MOST_BLADES blades.
     """
-    if seed < 0:
-        raise InputError("seed", "", seed, "a whole number from 0 up")
+    check_seed(seed)
     names = [component.name for component in species.component]
     start = np.zeros(len(names) + 1, np.int64)
     columns: list[list[np.ndarray]] = []

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from windswept.errors import InputError
+from windswept.plants.check_seed import check_seed
 from windswept.plants.depth_first import depth_first
 from windswept.plants.plant import Plant
 from windswept.plants.species import Species, load_species
@@ -37,8 +37,7 @@ def grow(
         BudgetError: the plant would be larger than a budget; raised before the memory is taken.
     """
     form = species if isinstance(species, Species) else load_species(species)
-    if seed < 0:
-        raise InputError("seed", "", seed, "a whole number from 0 up")
+    check_seed(seed)
     tree = plant_tree(form, seed, link_budget, leaf_budget)
     orders = [_grow_order(tree, 0, trunk_shoot(tree), 0, 0)]
     for order in range(1, form.growth.levels):

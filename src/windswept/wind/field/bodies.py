@@ -144,7 +144,7 @@ def settle(rows, boxes, frame, seconds, rain, limit, departure, velocity, push, 
             _hold_back(slab, air, limit)
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _act(row, box, frame, i, seconds, departure, velocity, push):  # type: ignore[no-untyped-def]
     """One body in one slab of equal x."""
     last_j, last_k = departure.shape[0] - 2, departure.shape[1] - 2
@@ -174,7 +174,7 @@ def _act(row, box, frame, i, seconds, departure, velocity, push):  # type: ignor
                 _drag_along(row, own, inside, seconds, departure[j, k], velocity[j, k])
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _drag_along(row, own, inside, seconds, departure, velocity):  # type: ignore[no-untyped-def]
     """Draws a node's air towards the body's velocity, within the time in which air passes the body."""
     u, v, w = velocity[0], velocity[1], velocity[2]
@@ -187,14 +187,14 @@ def _drag_along(row, own, inside, seconds, departure, velocity):  # type: ignore
     departure[3] += taken * max(row[13] - departure[3], _F(0.0))
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _put_to_rest(numbers):  # type: ignore[no-untyped-def]
     """Very small numbers become 0: what dies away must not end in denormals."""
     for n in range(len(numbers)):
         numbers[n] = _F(0.0) if abs(numbers[n]) < REST else numbers[n]
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _add_up(departure, velocity, limit):  # type: ignore[no-untyped-def]
     """Air that is not sheltered, plus departure, in the nodes of one slab; returns how many are out of bounds."""
     count = np.int32(0)
@@ -208,7 +208,7 @@ def _add_up(departure, velocity, limit):  # type: ignore[no-untyped-def]
     return count
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _hold_back(departure, velocity, limit):  # type: ignore[no-untyped-def]
     """Air faster than the limit is slowed to it, air that is no number stands still; neither departs any more."""
     for n in range(len(velocity)):

@@ -173,7 +173,7 @@ def _solve(wx, wy, wz, diagonal, sources, potentials):  # type: ignore[no-untype
             share = squared / before
 
 
-@njit(cache=True, fastmath={"reassoc", "contract"})
+@njit(fastmath={"reassoc", "contract"}, forceinline=True)
 def _descend(p, residual, way, image, diagonal, length):  # type: ignore[no-untyped-def]
     """Goes a length along the way; the residual's square, weighted by the inverse diagonal."""
     nx, ny, nz = p.shape
@@ -187,7 +187,7 @@ def _descend(p, residual, way, image, diagonal, length):  # type: ignore[no-unty
     return squared
 
 
-@njit(cache=True, fastmath={"reassoc", "contract"})
+@njit(fastmath={"reassoc", "contract"}, forceinline=True)
 def _turn_to(residual, way, image, diagonal, share, wx, wy, wz):  # type: ignore[no-untyped-def]
     """The next way, its image -div(weight grad way), and the product of both."""
     nx, ny, nz = way.shape

@@ -15,7 +15,11 @@ from windswept.wind.field.primitives import Primitive, line_rows, uniform_veloci
 Reals = NDArray[np.float64]
 
 FAST_MATH = {"nsz", "contract", "arcp", "afn", "reassoc"}
-"""What the field's kernels may do to arithmetic; not "nnan": a broken number must stay one, to be counted."""
+"""What the field's kernels may do to arithmetic; not "nnan": a broken number must stay one, to be counted.
+
+What kernels are made of is put into them with ``forceinline``: a part that is compiled by itself too may be worked out
+in another order there, and the first run, in which both are at hand, would differ from those that load the kernel.
+"""
 _F = np.float32
 
 
@@ -79,7 +83,7 @@ def _add_flows(flow, frame, uniform, lines, jets, near_ground):  # type: ignore[
                 _add_jet(jets[n], near_ground[n], x, y, u, v, w)
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _add_line(line, x, y, dz, u, v, w):  # type: ignore[no-untyped-def]
     """One line's flow in a column of nodes (LINE_COLUMNS)."""
     ax, ay, az = line[3], line[4], line[5]
@@ -94,7 +98,7 @@ def _add_line(line, x, y, dz, u, v, w):  # type: ignore[no-untyped-def]
         w[k] += share * (source * qz + vortex * (ax * qy - ay * qx))
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _add_jet(jet, near_ground, x, y, u, v, w):  # type: ignore[no-untyped-def]
     """One jet's flow in a column of nodes, as ``jet_velocity``."""
     radius, speed, layer = jet[2], jet[3], jet[4]

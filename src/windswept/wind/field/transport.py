@@ -61,7 +61,7 @@ def transport(before, ambient, profile, flow, column, tensor, shift, keep, after
                     _keep_out(tensor[column[i, j]], after[i, j])
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _blow(ambient, profile, air):  # type: ignore[no-untyped-def]
     """A slab's wind: horizontal, and as its profile has it."""
     for j in range(air.shape[1]):
@@ -72,7 +72,7 @@ def _blow(ambient, profile, air):  # type: ignore[no-untyped-def]
             air[2, j, k] = _F(0.0)
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _turn(tensor, ambient, air):  # type: ignore[no-untyped-def]
     """One component of a column's air behind, beside and in front of obstacles: a row of the tensor x ambient."""
     xx, xy, xz = tensor[0], tensor[1], tensor[2]
@@ -81,7 +81,7 @@ def _turn(tensor, ambient, air):  # type: ignore[no-untyped-def]
         air[k] = xx[k] * u[k] + xy[k] * v[k] + xz[k] * w[k]
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _interleave(air, velocity):  # type: ignore[no-untyped-def]
     """From component after component to node after node."""
     for n in range(len(velocity)):
@@ -90,7 +90,7 @@ def _interleave(air, velocity):  # type: ignore[no-untyped-def]
         velocity[n, 2] = air[2, n]
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _count_nodes(place):  # type: ignore[no-untyped-def]
     """Index along y and z of the nodes of a slab."""
     for j in range(place.shape[1]):
@@ -99,7 +99,7 @@ def _count_nodes(place):  # type: ignore[no-untyped-def]
             place[2, j, k] = _F(k)
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _origin(air, shift, count, place, cell, fraction):  # type: ignore[no-untyped-def]
     """Where a slab's air was before the step, along one axis: the cell, and how far into it (semi-Lagrangian)."""
     last, last_cell = _F(count - 1), _I(count - 2)
@@ -111,7 +111,7 @@ def _origin(air, shift, count, place, cell, fraction):  # type: ignore[no-untype
         fraction[n] = origin - _F(below)
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _carry(rows, shape, cell, fraction, keep, first, out):  # type: ignore[no-untyped-def]
     """Trilinear departure where a slab's air was, but at borders and top."""
     east, north, up = _U(shape[1] * shape[2]), _U(shape[2]), _U(1)
@@ -132,7 +132,7 @@ def _carry(rows, shape, cell, fraction, keep, first, out):  # type: ignore[no-un
             blend_rows(rows, corners, lower + upper, out, _U(first + n))
 
 
-@njit(cache=True, fastmath=FAST_MATH)
+@njit(fastmath=FAST_MATH, forceinline=True)
 def _keep_out(tensor, departure):  # type: ignore[no-untyped-def]
     """Nothing departs inside a solid."""
     for k in range(len(departure)):
