@@ -10,7 +10,9 @@ from windswept.gpu import layouts
 from windswept.gpu.culling.layouts import DRAWN_KIND
 from windswept.gpu.multibody.layouts import COUPLED
 from windswept.gpu.plant_drawing import LEAF_BATCH, STEM_BATCH
+from windswept.gpu.springs import room
 from windswept.gpu.wiring import SHADER_SETS, shader_module, shader_text
+from windswept.motion.modal import MODE_COUNT
 from windswept.motion.multibody import constants
 from windswept.motion.shapes import MAX_ANGLE
 from windswept.render.staging import LEVEL_LOOKS
@@ -102,6 +104,18 @@ def test_no_set_takes_more_buffers_than_a_browser_gives(name):
 )
 def test_constants_of_the_motion_agree_with_the_shader(line):
     assert line in shader_source("motion")
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        f"const RECORD = {room.RECORD}u;",
+        f"const MODE_RECORD = {room.MODE_RECORD}u;",
+        f"const MODES = {MODE_COUNT}u;",
+    ],
+)
+def test_constants_of_the_walk_agree_with_the_shader(line):
+    assert line in shader_source("springs")
 
 
 @pytest.mark.parametrize(

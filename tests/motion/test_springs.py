@@ -11,7 +11,7 @@ from scipy.special import ellipeinc, ellipkinc
 
 from handmade import build_plant, random_tree, straight
 from windswept.motion import Model, State, Stepper, build_model, finest_level, pose_links, push, rest_state
-from windswept.motion.model import PROPAGATION, TIME_STEP
+from windswept.motion.model import PROPAGATION, TIME_STEP, modes_of
 from windswept.motion.springs_plain import pose_plain, step_plain
 from windswept.plants.plant import Material
 from windswept.plants.pose import Pose
@@ -41,6 +41,7 @@ def posed(model: Model, state: State) -> Pose:
 def settle_plain(model: Model, wind: np.ndarray, force: np.ndarray, steps: int) -> np.ndarray:
     """Joint angles after many critically damped steps of the plain formulas."""
     model = replace(model, damping_ratio=np.full_like(model.damping_ratio, 0.9))
+    model = replace(model, modes=modes_of(model))
     angles = np.zeros((model.link_count, 2))
     velocities = np.zeros_like(angles)
     for _ in range(steps):

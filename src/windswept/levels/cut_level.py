@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from windswept.levels.hierarchy import Hierarchy
+from windswept.motion.exact_step import exact_step
 from windswept.motion.level import (
     CENTRE,
     COUPLE,
@@ -23,7 +24,6 @@ from windswept.motion.level import (
     WOOD_FACTOR,
     Level,
 )
-from windswept.motion.model import exact_step
 from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats, Ints
 
@@ -98,6 +98,7 @@ def compact_level(hierarchy: Hierarchy, links: Ints, nodes: Ints) -> Level:
         group_stop=hierarchy.stop[nodes],
         shapes=hierarchy.shapes,
         shape_limit=hierarchy.pressure,
+        modes=model.modes.among(links),
     )
 
 

@@ -22,8 +22,8 @@ from windswept.levels.cut_level import compact_level, walk_cut
 from windswept.levels.hierarchy import Hierarchy, preorder
 from windswept.levels.pair_table import equal_rods, look_up_rate, look_up_stiffness, pair_table
 from windswept.motion import Level
+from windswept.motion.exact_step import exact_step
 from windswept.motion.level import GROUP_MOBILITY, GROUP_STEP, SWAY
-from windswept.motion.model import exact_step
 from windswept.motion.rods import Doubles
 from windswept.plants.plant import Ints
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from windswept.motion import Model, Stepper, finest_level, rest_state
+from windswept.motion.modal import no_modes
 from windswept.motion.model import HALF_STEP, MOBILITY, STEP_VV, STEP_XX, TENSION
 from windswept.plants.plant import Floats
 
@@ -37,7 +38,7 @@ def static_angles(model: Model, winds: Floats) -> Floats:
     constants[:, STEP_XX : STEP_VV + 1] = 0.0
     constants[:, STEP_XX] = 1.0 - RELAXATION
     constants[:, (HALF_STEP, MOBILITY, TENSION)] = 0.0
-    level = replace(finest_level(model), constants=constants)
+    level = replace(finest_level(model), constants=constants, modes=no_modes())
     stepper, state = Stepper(level), rest_state(level, len(winds))
     steady = np.broadcast_to(winds[:, None], (len(winds), len(level.probe_position), 3))
     for sweep in range(1, MOST_SWEEPS + 1):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from windswept.motion.modal import Modes
 from windswept.motion.model import Model
 from windswept.motion.rods import Doubles
 from windswept.motion.shapes import SHAPE_COUNT
@@ -59,6 +60,8 @@ class Level:
     """(L, 2, 9) what each joint's angles are under its group's u, see shapes.py; all levels of a plant share it."""
     shape_limit: float
     """Pressure up to which the shapes hold, (m/s)^2; beyond it they go on in proportion."""
+    modes: Modes
+    """Of the whole plant, as far as active links take part."""
     coupled: bool = False
     """Whether links drive one another: stepped by `multibody` instead of `springs`."""
 
@@ -115,4 +118,5 @@ def finest_level(model: Model) -> Level:
         group_stop=np.zeros(0, np.int32),
         shapes=np.zeros((count, 2, SHAPE_COUNT), np.float32),
         shape_limit=1.0,
+        modes=model.modes,
     )

@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from windswept.motion.drag import Drag, build_drag
+from windswept.motion.exact_step import exact_step
+from windswept.motion.modal import Modes, no_modes, plant_modes
 from windswept.motion.modes import stem_frequencies
 from windswept.motion.rods import Doubles, Rods, build_rods
 from windswept.motion.skeleton import Skeleton, build_skeleton
@@ -48,6 +50,8 @@ class Model:
     """(B, 3) where the wind is sampled, m."""
     constants: Floats
     """(L, CONSTANT_COUNT) all of the above as the kernels read it."""
+    modes: Modes
+    """Of the whole plant, all joints coupled."""
 
     @property
     def link_count(self) -> int:
@@ -87,8 +91,21 @@ def build_model(plant: Plant, time_step: float = TIME_STEP, propagation: Doubles
         link_probe=link_probe,
         probe_position=probe_position,
         constants=np.empty((0, CONSTANT_COUNT), np.float32),
+        modes=no_modes(),
     )
-    return replace(model, constants=pack_constants(model))
+    return replace(model, constants=pack_constants(model), modes=modes_of(model))
+
+
+def modes_of(model: Model) -> Modes:
+    """The modes of a model's plant, beside the frequencies and damping that its joints have for themselves."""
+    stem = model.skeleton.stem
+    own = model.stem_frequency[stem], model.damping_ratio[stem]
+    return plant_modes(model.skeleton, model.rods, *own, model.time_step)
+
+
+def joint_lag(model: Model) -> Doubles:
+    """(L,) damping over stiffness of every joint, s, so that its stem's own mode has its damping ratio."""
+    return (2.0 * model.damping_ratio / model.stem_frequency)[model.skeleton.stem]
 
 
 def _place_probes(skeleton: Skeleton, drag: Drag) -> tuple[Ints, Floats]:
@@ -99,27 +116,6 @@ def _place_probes(skeleton: Skeleton, drag: Drag) -> tuple[Ints, Floats]:
     link_probe = link_probe.ravel()
     position = np.column_stack([np.bincount(link_probe, centre[:, i]) / size for i in range(3)])
     return link_probe.astype(np.int32), position.astype(np.float32)
-
-
-def exact_step(frequency: Doubles, damping_ratio: Doubles, time_step: float) -> Doubles:
-    """The damped oscillator y'' + 2 zeta omega y' + omega^2 y = 0 advanced exactly (PHYSICS A2, Quigley).
-
-    Args:
-        frequency: (n,) omega, rad/s.
-        damping_ratio: (n,) zeta, below 1.
-        time_step: s.
-
-    Returns:
-        (n, 4) coefficients xx, xv, vx, vv of (y, v) -> (xx y + xv v, vx y + vv v).
-
-    """
-    damped = frequency * np.sqrt(1.0 - damping_ratio**2)
-    decay = np.exp(-damping_ratio * frequency * time_step)
-    cosine, sine = np.cos(damped * time_step), np.sin(damped * time_step) / damped
-    friction = damping_ratio * frequency * sine
-    return np.column_stack(
-        [decay * (cosine + friction), decay * sine, -decay * frequency**2 * sine, decay * (cosine - friction)]
-    )
 
 
 def drag_mobility(model: Model) -> Doubles:

@@ -30,6 +30,24 @@ def plant_frequencies(skeleton: Skeleton, rods: Rods, count: int = 5) -> Doubles
     Returns:
         (count,) frequencies in Hz, ascending; fewer where the plant has fewer freedoms.
     """
+    return natural_modes(skeleton, rods, count)[0] / (2.0 * np.pi)
+
+
+def natural_modes(
+    skeleton: Skeleton, rods: Rods, count: int, tolerance: float = 1e-8
+) -> tuple[Doubles, Doubles]:
+    """The lowest natural modes of the whole plant, all joints coupled.
+
+    Args:
+        skeleton: the rest skeleton.
+        rods: mass and compliance.
+        count: how many.
+        tolerance: relative error of a frequency's square.
+
+    Returns:
+        (R,) angular frequencies in rad/s, ascending, and (L, 2, R) joint angles, with an elastic energy of 1/2; R is
+        ``count``, or the number of the plant's freedoms where that is less.
+    """
     root = np.sqrt(rods.compliance)
     tree = (skeleton.parent, 0, skeleton.attach, skeleton.vector, skeleton.axes)
 
@@ -40,12 +58,13 @@ def plant_frequencies(skeleton: Skeleton, rods: Rods, count: int = 5) -> Doubles
 
     size = root.size
     if size <= 2 * count + 2:
-        values = np.linalg.eigvalsh(np.column_stack([scaled_mass(column) for column in np.eye(size)]))
+        values, vectors = np.linalg.eigh(np.column_stack([scaled_mass(column) for column in np.eye(size)]))
     else:
         operator = LinearOperator((size, size), matvec=scaled_mass, dtype=np.float64)
         start = np.random.default_rng(0).standard_normal(size)
-        values = eigsh(operator, k=count, which="LA", v0=start, return_eigenvectors=False, tol=1e-8)
-    return np.sort(1.0 / np.sqrt(values))[:count] / (2.0 * np.pi)
+        values, vectors = eigsh(operator, k=count, which="LA", v0=start, tol=tolerance)
+    slowest = np.argsort(-values)[:count]
+    return 1.0 / np.sqrt(values[slowest]), root[..., None] * vectors[:, slowest].reshape(*root.shape, -1)
 
 
 def stem_frequencies(skeleton: Skeleton, rods: Rods) -> Doubles:

@@ -7,6 +7,7 @@ One step, for one placement::
     drag                   force of the wind on the link, from the air's velocity relative to it
     load    leaf to root   force F and moment M of everything beyond the joint
     joint                  towards the angle compliance x torque, by the exact damped-oscillator step
+    modes                  what of that motion lies in the lowest modes of the plant is made to go as they do: modal.py
 
 `springs_plain.py` is the same in NumPy for one placement, and the tests hold the two together.
 """
@@ -21,6 +22,7 @@ from numba import get_num_threads, get_thread_id, njit, prange
 from windswept.motion.groups import air_of_group, swing_group
 from windswept.motion.lanes import FAST_MATH, WIDTH, at_least, clamped, load, settled, sqrt, store
 from windswept.motion.level import Level
+from windswept.motion.modal import MODE_COUNT
 from windswept.motion.model import (
     ATTACH,
     AXIS_1,
@@ -68,6 +70,9 @@ _SLOT = np.uintp(12 * WIDTH)
 """Scratch of a depth: angular velocity, joint velocity, link vector, its rate (3 each)."""
 _SUM = np.uintp(6 * WIDTH)
 """Scratch of a depth: summed force and moment of the links hanging there."""
+_EACH: Any = np.uintp(MODE_COUNT * WIDTH)
+_MODES = 4 * MODE_COUNT * WIDTH
+"""Scratch of the modes: sums over the joints of deviation, deviation x w, rate and rate x c, each for every mode."""
 _THRESHOLD: Any = _F(REST_THRESHOLD)
 _LIMIT: Any = _F(MAX_ANGLE)
 _STOP: Any = _F(2.0 * MAX_ANGLE)
@@ -89,7 +94,7 @@ def drag_force(c, link, wind, v, d):  # type: ignore[no-untyped-def]
 
 @njit(fastmath=FAST_MATH, forceinline=True)
 def oscillate(c, link, torque, angle, velocity, compliance, tension):  # type: ignore[no-untyped-def]
-    """The exact step of one spring towards compliance x torque, at most MAX_ANGLE.
+    """The exact step of one spring towards compliance x torque, at most MAX_ANGLE; and how far from there it gets.
 
     ``tension`` is 1 but in storms, where the pull of the air on a limp branch is a stiffer spring than its wood:
     then it slows the way to the equilibrium, and does not move the equilibrium.
@@ -98,7 +103,8 @@ def oscillate(c, link, torque, angle, velocity, compliance, tension):  # type: i
     target = angle - y
     moved = target + y * c[link, STEP_XX] + velocity * c[link, STEP_XV]
     swung = y * c[link, STEP_VX] + velocity * c[link, STEP_VV]
-    return settled(clamped(moved, _STOP), _THRESHOLD), settled(swung, _THRESHOLD)
+    angle = settled(clamped(moved, _STOP), _THRESHOLD)
+    return angle, settled(swung, _THRESHOLD), angle - target
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
@@ -162,9 +168,14 @@ def _pose_and_drag(  # type: ignore[no-untyped-def]
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)
-def _load_and_swing(c, depth, probe, joints, a, sums):  # type: ignore[no-untyped-def]
-    """Leaf to root: sums force and moment of every subtree and steps its joint."""
-    one, three, four = _W, _W * np.uintp(3), _W * np.uintp(4)
+def _load_and_swing(  # type: ignore[no-untyped-def]
+    c, depth, probe, modal_link, modal_torque, modal_own, joints, a, sums, modal
+):
+    """Leaf to root: sums force and moment of every subtree, steps its joint, and projects it on the modes."""
+    three, four = _W * np.uintp(3), _W * np.uintp(4)
+    for k in range(4 * MODE_COUNT):
+        store(a, modal + np.uintp(k) * _W, load(joints, np.uintp(0)) * _F(0.0))
+    k = len(modal_link) - 1
     for i in range(len(depth)):
         link = np.uintp(len(depth) - 1 - i)
         record = (link + np.uintp(1)) * _RECORD
@@ -182,28 +193,61 @@ def _load_and_swing(c, depth, probe, joints, a, sums):  # type: ignore[no-untype
         torque = rotate_back(load4(a, np.uintp(probe[link, 1]) * _RECORD), add_scaled(moment, arm, _F(-1.0)))
         tension = at_least(sqrt(dot(force, force) + _TINY) * c[link, TENSION], _ONE)
         joint = link * four
-        angle, rate = oscillate(
-            c,
-            link,
-            dot(torque, constant3(c, link, AXIS_1)),
-            load(joints, joint),
-            load(joints, joint + one),
-            c[link, COMPLIANCE_1],
-            tension,
-        )
-        store(joints, joint, angle)
-        store(joints, joint + one, rate)
-        angle, rate = oscillate(
-            c,
-            link,
-            dot(torque, constant3(c, link, AXIS_2)),
-            load(joints, joint + one + one),
-            load(joints, joint + three),
-            c[link, COMPLIANCE_2],
-            tension,
-        )
-        store(joints, joint + one + one, angle)
-        store(joints, joint + three, rate)
+        bend_1, bend_2 = dot(torque, constant3(c, link, AXIS_1)), dot(torque, constant3(c, link, AXIS_2))
+        x_1, v_1, x_2, v_2 = load4(joints, joint)
+        angle_1, rate_1, y_1 = oscillate(c, link, bend_1, x_1, v_1, c[link, COMPLIANCE_1], tension)
+        angle_2, rate_2, y_2 = oscillate(c, link, bend_2, x_2, v_2, c[link, COMPLIANCE_2], tension)
+        store3(joints, joint, (angle_1, rate_1, angle_2))
+        store(joints, joint + three, rate_2)
+        if k >= 0 and modal_link[k] == len(depth) - 1 - i:
+            w, damping = modal_own[k, 0], modal_own[k, 1]
+            for r in range(MODE_COUNT):
+                t_1, t_2, at = modal_torque[k, 0, r], modal_torque[k, 1, r], modal + np.uintp(r) * _W
+                y, v = y_1 * t_1 + y_2 * t_2, rate_1 * t_1 + rate_2 * t_2
+                store(a, at, load(a, at) + y)
+                store(a, at + _EACH, load(a, at + _EACH) + y * w)
+                store(a, at + _EACH + _EACH, load(a, at + _EACH + _EACH) + v)
+                store(a, at + _EACH + _EACH + _EACH, load(a, at + _EACH + _EACH + _EACH) + v * damping)
+            k -= 1
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def _row_times(gain, which, r, v):  # type: ignore[no-untyped-def]
+    """Row of a matrix of the modes times four registers."""
+    row = gain[which, r]
+    return v[0] * row[0] + v[1] * row[1] + v[2] * row[2] + v[3] * row[3]
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def _share_out(gain, a, modal):  # type: ignore[no-untyped-def]
+    """From the sums over the joints: what every mode adds to all joints, and its deviation and rate."""
+    for half in range(2):
+        first = modal + np.uintp(2 * half) * _EACH
+        together, each = load4(a, first), load4(a, first + _EACH)
+        for r in range(MODE_COUNT):
+            at = first + np.uintp(r) * _W
+            store(a, at, _row_times(gain, 1 + half, r, together) - _row_times(gain, 0, r, each))
+            store(a, at + _EACH, _row_times(gain, 0, r, together))
+
+
+@njit(fastmath=FAST_MATH, forceinline=True)
+def _kick(c, modal_link, modal_torque, modal_own, time_step, joints, a, modal):  # type: ignore[no-untyped-def]
+    """Changes the rates of all joints that take part by what the modes ask of them."""
+    for k in range(len(modal_link)):
+        joint = np.uintp(modal_link[k]) * _W * np.uintp(4) + _W
+        for axis in range(2):
+            push = load(a, modal) * _F(0.0)
+            for r in range(MODE_COUNT):
+                at = modal + np.uintp(r) * _W
+                whole = load(a, at) + load(a, at + _EACH + _EACH)
+                own = (
+                    load(a, at + _EACH) * modal_own[k, 0]
+                    + load(a, at + _EACH + _EACH + _EACH) * modal_own[k, 1]
+                )
+                push = push + (own - whole) * modal_torque[k, axis, r]
+            rate = load(joints, joint) + push * (time_step * c[np.uintp(modal_link[k]), COMPLIANCE_1 + axis])
+            store(joints, joint, settled(rate, _THRESHOLD))
+            joint += _W + _W
 
 
 @njit(fastmath=FAST_MATH, parallel=True, cache=True)
@@ -214,18 +258,24 @@ def _step_tiles(  # type: ignore[no-untyped-def]
     g,
     group_start,
     group_probe,
+    modal_link,
+    modal_torque,
+    modal_own,
+    modal_gain,
+    time_step,
     joints,
     groups,
     wind,
     scratch,
     sum_start,
+    modal_start,
     first,
     last,
     interval,
 ):
     """Inner steps first..last of an interval over which the wind goes linearly from wind[t, 0] to wind[t, 1]."""
     slots = np.uintp(len(depth) + 1) * _RECORD
-    sums = np.uintp(sum_start)
+    sums, modal = np.uintp(sum_start), np.uintp(modal_start)
     for tile in prange(joints.shape[0]):
         a = scratch[get_thread_id()]
         now = a[a.size - wind.shape[2] :]
@@ -235,17 +285,23 @@ def _step_tiles(  # type: ignore[no-untyped-def]
             _pose_and_drag(
                 c, depth, probe, g, group_start, group_probe, joints[tile], groups[tile], now, a, slots
             )
-            _load_and_swing(c, depth, probe, joints[tile], a, sums)
+            _load_and_swing(
+                c, depth, probe, modal_link, modal_torque, modal_own, joints[tile], a, sums, modal
+            )
+            if len(modal_link) > 0:
+                _share_out(modal_gain, a, modal)
+                _kick(c, modal_link, modal_torque, modal_own, time_step, joints[tile], a, modal)
 
 
-def _scratch(level: Level) -> tuple[Floats, int]:
-    """Per-thread scratch with the ground's record and slot at rest, and where the sums begin."""
+def _scratch(level: Level) -> tuple[Floats, int, int]:
+    """Per-thread scratch with the ground's record and slot at rest, and where the sums and the modes begin."""
     depths = int(level.depth.max(initial=0)) + 3
     sum_start = (level.link_count + 1) * int(_RECORD) + depths * int(_SLOT)
-    size = sum_start + depths * int(_SUM) + 4 * len(level.probe_position) * WIDTH
+    modal_start = sum_start + depths * int(_SUM)
+    size = modal_start + _MODES + 4 * len(level.probe_position) * WIDTH
     scratch = np.zeros((get_num_threads(), size), np.float32)
     scratch[:, 3 * WIDTH : 4 * WIDTH] = 1.0
-    return scratch, sum_start
+    return scratch, sum_start, modal_start
 
 
 class Stepper:
@@ -254,7 +310,7 @@ class Stepper:
     def __init__(self, level: Level) -> None:
         self.level = level
         self._probe_and_parent: Ints = np.column_stack([level.probe, level.parent + 1]).astype(np.int32)
-        self._scratch, self._sum_start = _scratch(level)
+        self._scratch, self._sum_start, self._modal_start = _scratch(level)
 
     def step(
         self,
@@ -287,11 +343,17 @@ class Stepper:
             level.group_constants,
             level.group_start,
             level.group_probe,
+            level.modes.link,
+            level.modes.torque,
+            level.modes.own,
+            level.modes.gain,
+            np.float32(level.modes.time_step),
             state.joints.reshape(tiles, -1),
             state.groups.reshape(tiles, -1),
             wind,
             self._scratch,
             self._sum_start,
+            self._modal_start,
             taken,
             taken + substeps,
             float(interval or substeps),

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from windswept.motion.model import Model, drag_mobility, exact_step, tension_per_force
+from windswept.motion.exact_step import exact_step
+from windswept.motion.model import Model, drag_mobility, tension_per_force
 from windswept.motion.rods import Doubles
 from windswept.motion.shapes import MAX_ANGLE
 from windswept.plants.air import reconfiguration
@@ -86,4 +87,27 @@ def step_plain(
     target = np.clip(model.rods.compliance * torque, -MAX_ANGLE, MAX_ANGLE)
     y = (angles - target) / np.maximum(np.linalg.norm(force, axis=1) * tension_per_force(model), 1.0)[:, None]
     moved = np.clip(angles - y + xx * y + xv * velocities, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE)
-    return moved, vx * y + vv * velocities
+    swung = vx * y + vv * velocities
+    return moved, swung + modal_kick(model, moved - angles + y, swung)
+
+
+def modal_kick(model: Model, deviation: Doubles, velocities: Doubles) -> Doubles:
+    """(L, 2) what the modes change of the velocities, rad/s; see modal.py.
+
+    Args:
+        model: the plant's constants.
+        deviation: (L, 2) angles less static angles, rad.
+        velocities: (L, 2) rad/s.
+    """
+    modes, links = model.modes, model.modes.link
+    gain, of_stiffness, of_damping = modes.gain.astype(np.float64)
+    own = modes.own[:, None].astype(np.float64)
+    kick = np.zeros_like(deviation)
+    for joint, rate, quickening in (
+        (deviation[links], own[..., 0], of_stiffness),
+        (velocities[links], own[..., 1], of_damping),
+    ):
+        together, each = (np.einsum("kir,ki->r", modes.torque, part) for part in (joint, rate * joint))
+        kick[links] -= modes.angle @ (quickening @ together - gain @ each)
+        kick[links] += rate * (modes.angle @ (gain @ together))
+    return modes.time_step * kick

@@ -1,17 +1,19 @@
 """`springs` against `multibody` in turbulent wind: how far tips part, and whether they sway as much in every band.
 
-Before and after ``motion.calibrate``, for six plants: ``python -m windswept.studies.springs_accuracy``.
+With every joint for itself, and with the lowest modes of the whole plant in common (motion/modal.py), for six plants:
+``python -m windswept.studies.springs_accuracy``.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+from dataclasses import replace
 
 import numpy as np
 
 from windswept.motion import Model, Stepper, build_model, finest_level, rest_state
-from windswept.motion.calibrate import calibrated
+from windswept.motion.modal import no_modes
 from windswept.motion.multibody import MultibodyStepper, coupled_rest
 from windswept.motion.rods import Doubles
 from windswept.plants.plant import Ints
@@ -74,7 +76,7 @@ def row(species: str, mean_speed: float, seconds: float, seed: int = 0) -> dict[
     last = np.append(model.skeleton.stem_first_link[1:], model.link_count) - 1
     links = last[:: max(1, len(last) // MOST_TIPS)].astype(np.int32)
     air = turbulent_air(model, mean_speed, seed, PLACEMENTS)
-    models = {"before": model, "after": calibrated(model)}
+    models = {"before": replace(model, modes=no_modes()), "after": model}
     tracks = tip_tracks(models, air, seconds, links)
     true = tracks["multibody"]
     power = band_power(true, SUBSTEPS * model.time_step)

@@ -13,6 +13,7 @@
 @group(0) @binding(5) var<storage, read_write> state: array<vec4f>;
 @group(0) @binding(6) var<storage, read_write> stack: array<vec4f>;
 @group(0) @binding(7) var<uniform> moment: Moment;
+@group(0) @binding(8) var<storage, read> modes: array<vec4u>;   // see springs/mode_rows.py
 
 // Links that this dispatch walks; where there are more, it goes on where the one before it left off.
 override FIRST: u32 = 0u;
@@ -22,6 +23,19 @@ const REST_THRESHOLD = 1e-9;
 const GROUP_REST_THRESHOLD = 1e-7;
 const TINY = 1e-30;
 const RECORD = 5u;   // rows of a link in the stack
+const MODES = 4u;    // MODE_COUNT of motion/modal.py
+const MODE_RECORD = 5u;   // rows of the modes in the stack, beyond all links
+
+// Sums over the joints that are done, for each mode, of the names in motion/modal.py; and which link comes next.
+struct Modal {
+    y: vec4f,
+    wy: vec4f,
+    v: vec4f,
+    cv: vec4f,
+    next: u32,
+}
+
+var<private> modal: Modal;
 
 struct Body {
     rotation: vec4f,
@@ -128,26 +142,75 @@ fn pose_and_drag(link: Link, joint: vec4f, parent: Body, air: vec4f) -> Body {
     return body;
 }
 
-// The exact step of one spring (angle, rate) towards compliance x torque; see springs.py on the tension.
-fn oscillate(link: Link, angle: f32, rate: f32, bend: f32, tension: f32) -> vec2f {
-    let y = (angle - clamp(bend, -MAX_ANGLE, MAX_ANGLE)) / tension;
-    let swung = clamp(angle - y + y * link.swing.x + rate * link.swing.y, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE);
-    let after = vec2f(swung, y * link.swing.z + rate * link.swing.w);
+// Angle and rate as a joint may have them.
+fn bounded(angle: f32, rate: f32) -> vec2f {
+    let after = vec2f(clamp(angle, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE), rate);
     return select(after, vec2f(0.0), abs(after) < vec2f(REST_THRESHOLD));
 }
 
-fn swing_joint(link: Link, row: u32, body: Body, parent: Body) {
+// The exact step of one spring (angle, rate) towards compliance x torque, and how far from there it gets; see springs.py
+// on the tension.
+fn oscillate(link: Link, angle: f32, rate: f32, bend: f32, tension: f32) -> vec3f {
+    let y = (angle - clamp(bend, -MAX_ANGLE, MAX_ANGLE)) / tension;
+    let goal = angle - y;
+    let after = bounded(goal + y * link.swing.x + rate * link.swing.y, y * link.swing.z + rate * link.swing.w);
+    return vec3f(after, after.x - goal);
+}
+
+fn mode_row(row: u32) -> vec4f {
+    return bitcast<vec4f>(modes[row]);
+}
+
+fn swing_joint(link: Link, number: u32, mine: vec2u, row: u32, body: Body, parent: Body) {
     let joint = state[row];
     let torque = rotate_back(parent.rotation, body.torque - cross(body.place, body.force));
     let tension = max(sqrt(dot(body.force, body.force) + TINY) * link.more.y, 1.0);
     let first = oscillate(link, joint.x, joint.y, dot(torque, link.axis_1.xyz) * link.axis_1.w, tension);
     let second = oscillate(link, joint.z, joint.w, dot(torque, link.axis_2.xyz) * link.axis_2.w, tension);
-    state[row] = vec4f(first, second);
+    state[row] = vec4f(first.xy, second.xy);
+    let entry = mine.x + 3u * MODES + 3u * modal.next;
+    if modal.next < mine.y && modes[entry].x == number {
+        let own = mode_row(entry);
+        let y = first.z * mode_row(entry + 1u) + second.z * mode_row(entry + 2u);
+        let v = first.y * mode_row(entry + 1u) + second.y * mode_row(entry + 2u);
+        modal = Modal(modal.y + y, modal.wy + own.y * y, modal.v + v, modal.cv + own.z * v, modal.next + 1u);
+    }
 }
 
-// One inner step of one placement: the walk over its links, or over a share of them.
-fn walk(rung: Rung, column: Column, late: f32) {
+// Row-by-row product with one of the matrices of `Modes.gain`.
+fn gained(row: u32, sum: vec4f) -> vec4f {
+    return vec4f(
+        dot(mode_row(row), sum), dot(mode_row(row + 1u), sum), dot(mode_row(row + 2u), sum), dot(mode_row(row + 3u), sum),
+    );
+}
+
+// Changes the rates of all joints that take part by what the modes ask of them.
+fn kick(rung: Rung, mine: vec2u, column: Column) {
+    let whole = gained(mine.x + MODES, modal.y) - gained(mine.x, modal.wy)
+        + gained(mine.x + 2u * MODES, modal.v) - gained(mine.x, modal.cv);
+    let y = gained(mine.x, modal.y);
+    let v = gained(mine.x, modal.v);
+    for (var k = 0u; k < mine.y; k++) {
+        let entry = mine.x + 3u * MODES + 3u * k;
+        let number = modes[entry].x;
+        let own = mode_row(entry);
+        let link = links[rung.links.x + number];
+        let row = column.state + number * column.stride;
+        let push = own.w * (own.y * y + own.z * v - whole);
+        let joint = state[row];
+        state[row] = vec4f(
+            bounded(joint.x, joint.y + link.axis_1.w * dot(mode_row(entry + 1u), push)),
+            bounded(joint.z, joint.w + link.axis_2.w * dot(mode_row(entry + 2u), push)),
+        );
+    }
+}
+
+// One inner step of one placement: the walk over its links, or over a share of them. `mine` is where the rows of the
+// rung's modes begin, and how many links take part.
+fn walk(rung: Rung, mine: vec2u, column: Column, late: f32) {
     let stride = column.stride;
+    let held = column.stack + (rung.links.z + 1u) * RECORD * stride;
+    modal = Modal();
     var body: Body;
     var group = 0u;
     var top = column.stack;
@@ -160,6 +223,10 @@ fn walk(rung: Rung, column: Column, late: f32) {
     } else {
         top += u32(links[rung.links.x + FIRST].more.w) * RECORD * stride;
         body = take_up(top, stride);
+        modal = Modal(
+            stack[held], stack[held + stride], stack[held + 2u * stride], stack[held + 3u * stride],
+            u32(stack[held + 4u * stride].x),
+        );
         group = links[rung.links.x + FIRST - 1u].rows.z;
     }
     let end = FIRST + min(MOST, rung.links.y - FIRST);
@@ -177,14 +244,23 @@ fn walk(rung: Rung, column: Column, late: f32) {
             let ended = links[rung.links.x + done];
             top -= RECORD * stride;
             var parent = take_up(top, stride);
-            swing_joint(ended, column.state + done * stride, body, parent);
+            swing_joint(ended, done, mine, column.state + done * stride, body, parent);
             parent.force += ended.more.x * body.force;
             parent.torque += ended.more.x * body.torque;
             body = parent;
             done = ended.rows.x;
         }
     }
-    if end < rung.links.y { lay_down(top, stride, body); }
+    if end < rung.links.y {
+        lay_down(top, stride, body);
+        stack[held] = modal.y;
+        stack[held + stride] = modal.wy;
+        stack[held + 2u * stride] = modal.v;
+        stack[held + 3u * stride] = modal.cv;
+        stack[held + 4u * stride] = vec4f(f32(modal.next), 0.0, 0.0, 0.0);
+    } else {
+        kick(rung, mine, column);
+    }
 }
 
 @compute @workgroup_size(64)
@@ -202,11 +278,11 @@ fn step_block(
             joints,
             joints + rung.links.y * stride,
             rung.room.z + block.y * 2u * rung.probes.y * stride + lane,
-            rung.room.y + block.y * (rung.links.z + 1u) * RECORD * stride + lane,
+            rung.room.y + block.y * ((rung.links.z + 1u) * RECORD + MODE_RECORD) * stride + lane,
             stride,
         );
         for (var s = moment.steps.y; s < moment.steps.z; s++) {
-            walk(rung, column, f32(s + 1u) / f32(moment.steps.w));
+            walk(rung, modes[block.x].xy, column, f32(s + 1u) / f32(moment.steps.w));
         }
     }
 }

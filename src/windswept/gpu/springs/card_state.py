@@ -45,6 +45,7 @@ class CardState:
             "rungs": filled(device, table(arrays.rungs, layouts.RUNG_LIMIT, "simulation levels"), UNIFORM),
             "links": filled(device, arrays.links),
             "groups": filled(device, arrays.groups),
+            "modes": filled(device, arrays.modes),
             "probes": filled(device, arrays.probes),
             "listeners": filled(device, arrays.listeners),
             "shapes": filled(device, arrays.shapes),

@@ -14,6 +14,8 @@ from windswept.motion import Level
 Counts = NDArray[np.int64]
 RECORD = 5
 """Rows of a link in the stack: RECORD of ``springs.wgsl``."""
+MODE_RECORD = 5
+"""Rows of the modes beyond them: MODE_RECORD of ``springs.wgsl``."""
 ROOM_BYTES = 1 << 30
 """Of a buffer at most, whatever the card could bind, if the coarsest levels need no more."""
 NARROWEST = 8
@@ -33,7 +35,7 @@ class BlockSize:
     state: Counts
     """(R,) one a link, two a group."""
     stack: Counts
-    """(R,) the links between the root and the walk's place."""
+    """(R,) the links between the root and the walk's place, and the modes."""
     wind: Counts
     """(R,) two a probe: both ends of an interval."""
 
@@ -48,7 +50,7 @@ def block_size(levels: list[Level]) -> BlockSize:
     depth = [int(level.depth.max(initial=0)) for level in levels]
     return BlockSize(
         np.array([level.link_count + 2 * level.group_count for level in levels]),
-        RECORD * (np.array(depth) + 1),
+        RECORD * (np.array(depth) + 1) + MODE_RECORD,
         np.array([2 * len(level.probe_position) for level in levels]),
     )
 

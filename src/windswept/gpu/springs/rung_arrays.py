@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from windswept.errors import GraphicsError
 from windswept.gpu import layouts
 from windswept.gpu.springs.kinds import GrownKind
+from windswept.gpu.springs.mode_rows import mode_rows
 from windswept.gpu.springs.room import block_size, joins_for, room_for
 from windswept.gpu.springs.rows import Rows, group_rows, link_rows, listener_rows, shape_rows
 from windswept.motion import Level
@@ -28,6 +29,8 @@ class RungArrays:
     """``LINK``, level after level."""
     groups: Rows
     """``GROUP``, level after level."""
+    modes: NDArray[np.uint32]
+    """(n, 4) see mode_rows.py."""
     probes: Floats
     """(n, 4) positions of the probes in the plant's frame, level after level, m; 0."""
     listeners: NDArray[np.uint32]
@@ -85,6 +88,7 @@ def rung_arrays(kinds: list[GrownKind], limit: int) -> RungArrays:
         rungs=rungs,
         links=np.concatenate([link_rows(level) for level in levels]),
         groups=np.concatenate([group_rows(level) for level in levels]),
+        modes=mode_rows(levels),
         probes=np.pad(np.concatenate([level.probe_position for level in levels]), [(0, 0), (0, 1)]),
         listeners=np.concatenate([listener_rows(level) for level in levels]),
         shapes=np.concatenate([shape_rows(kind.levels[-1], kind.model) for kind in kinds]),
@@ -108,6 +112,7 @@ def _nothing() -> RungArrays:
         rungs=np.zeros(0, layouts.RUNG),
         links=np.zeros(0, layouts.LINK),
         groups=np.zeros(0, layouts.GROUP),
+        modes=np.zeros((0, 4), np.uint32),
         probes=np.zeros((0, 4), np.float32),
         listeners=np.zeros((0, 4), np.uint32),
         shapes=np.zeros(0, layouts.SHAPE),

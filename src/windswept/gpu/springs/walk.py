@@ -13,8 +13,9 @@ from windswept.motion.lanes import WIDTH
 
 STAGES = ("levels", "wind", "simulate", "pose")
 WORKGROUP = 64
-TURNS_PER_LINK = 4
-"""Turns of the loops of ``springs.wgsl`` for a link and step, see turns.py: its own, its groups', its ends' twice."""
+TURNS_PER_LINK = 5
+"""Turns of the loops of ``springs.wgsl`` for a link and step, see turns.py: its own, its groups', its ends' twice, its
+modes'."""
 WHOLE_TURNS = 1
 """The same of the kernels that are dispatched for whole plants only: of poses, of changes of level."""
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from windswept.motion.model import exact_step
+from windswept.motion.exact_step import exact_step
 from windswept.motion.rods import Doubles
 
 

@@ -9,9 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from windswept.motion.level import Level
-from windswept.motion.model import Model
+from windswept.motion.model import Model, joint_lag
 from windswept.motion.multibody.held_mass import held_mass
-from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats
 
 COLUMN_COUNT = 24
@@ -73,11 +72,6 @@ def warped_step(model: Model) -> float:
 def forces_at(model: Model) -> float:
     """How far into a step forces are taken, s: a hair beyond its middle, which keeps the energy exactly."""
     return warped_step(model) * (0.5 + min((SETTLING * model.time_step) ** 4, 0.5))
-
-
-def joint_lag(model: Model) -> Doubles:
-    """(L,) damping over stiffness of every joint, s, so that its stem's own mode has its damping ratio."""
-    return (2.0 * model.damping_ratio / model.stem_frequency)[model.skeleton.stem]
 
 
 def pack_multibody(model: Model) -> Floats:

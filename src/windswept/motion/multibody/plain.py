@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from windswept.motion.model import Model
+from windswept.motion.model import Model, joint_lag
 from windswept.motion.multibody.constants import (
     MOST_ANGLE,
     PULL_KNEE,
@@ -20,7 +20,6 @@ from windswept.motion.multibody.constants import (
     STOP_EDGE,
     STOP_STIFFNESS,
     forces_at,
-    joint_lag,
     warped_step,
 )
 from windswept.motion.rods import Doubles
