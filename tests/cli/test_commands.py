@@ -9,7 +9,8 @@ import pytest
 from PIL import Image
 
 from command_line import run, write_scene
-from windswept.cli import COMMANDS
+from windswept.cli import COMMANDS, doctor
+from windswept.gpu.device import TIMESTAMPS, shared_device
 from windswept.plants.underbrush import underbrush_names
 
 
@@ -122,6 +123,42 @@ def test_doctor_names_the_adapter(capsys: pytest.CaptureFixture[str]) -> None:
     report = json.loads(capsys.readouterr().out)
     assert report["adapter"]
     assert report["mend"] is None
+    limits = shared_device().limits
+    assert report["limits"] == {
+        "binds_bytes": limits["max-storage-buffer-binding-size"],
+        "buffer_bytes": limits["max-buffer-size"],
+        "has_clock": TIMESTAMPS in shared_device().features,
+    }
+
+
+@pytest.mark.parametrize(
+    ("limits", "line"),
+    [
+        ((2**27, 2**31 - 1, True), "128 MiB of a buffer, which may have 2.0 GiB; a clock for stages"),
+        ((2**30, 2**30, False), "1.0 GiB of a buffer, which may have 1.0 GiB; no clock: no stage is timed"),
+    ],
+)
+def test_doctor_says_how_much_the_adapter_takes(
+    limits: tuple[int, int, bool],
+    line: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    named = dict(zip(("binds_bytes", "buffer_bytes", "has_clock"), limits, strict=True))
+    monkeypatch.setattr(doctor, "find_adapter", lambda: ("a card", named))
+    assert run("doctor") == 0
+    assert f"limits    shaders see {line}\n" in capsys.readouterr().out
+
+
+def test_doctor_without_an_adapter_names_its_mend_alone(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(doctor, "find_adapter", lambda: None)
+    assert run("doctor") == 2
+    said = capsys.readouterr().out
+    assert "adapter   none" in said
+    assert "mend      as root: " in said
+    assert "limits" not in said
 
 
 @pytest.mark.parametrize(

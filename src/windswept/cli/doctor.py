@@ -32,11 +32,13 @@ def command(mend: bool, as_json: bool) -> None:
     if adapter is None and mend:
         install_driver()
         adapter = find_adapter()
+    summary, limits = adapter or (None, None)
     report: dict[str, object] = {
         "python": platform.python_version(),
         "system": f"{platform.system()} {platform.machine()}",
         "cores": len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count(),
-        "adapter": adapter,
+        "adapter": summary,
+        "limits": limits,
         "display": os.environ.get("WAYLAND_DISPLAY") or os.environ.get("DISPLAY"),
         "packages": {name: installed_version(name) for name in PACKAGES},
         "mend": None if adapter else f"as root: {DRIVER_LINE}",
@@ -52,17 +54,40 @@ def command(mend: bool, as_json: bool) -> None:
 def _print_report(report: dict[str, object]) -> None:
     packages = report.pop("packages")
     assert isinstance(packages, dict)
+    if isinstance(report["limits"], dict):
+        report["limits"] = _limits_line(**report["limits"])
     for name, value in report.items():
-        if value is not None or name != "mend":
+        if value is not None or name not in ("mend", "limits"):
             click.echo(f"{name:<9} {value if value is not None else 'none'}")
     click.echo("packages  " + ", ".join(f"{k} {v}" for k, v in packages.items()))
 
 
-def find_adapter() -> str | None:
-    """One line on the graphics adapter, or None; asked in a child, since a driver's failure can end the process."""
-    code = "from windswept.gpu.device import adapter_summary; print(adapter_summary())"
+def _limits_line(binds_bytes: int, buffer_bytes: int, has_clock: bool) -> str:
+    """What fits on the adapter, in words."""
+    clock = "a clock for stages" if has_clock else "no clock: no stage is timed"
+    return (
+        f"shaders see {_in_words(binds_bytes)} of a buffer, which may have {_in_words(buffer_bytes)}; {clock}"
+    )
+
+
+def _in_words(size: int) -> str:
+    return f"{size / 2**20:,.0f} MiB" if size < 2**30 else f"{size / 2**30:,.1f} GiB"
+
+
+def find_adapter() -> tuple[str, dict[str, int | bool]] | None:
+    """One line on the graphics adapter and its limits, see `adapter_limits`; None where there is none.
+
+    Asked in a child, since a driver's failure can end the process.
+    """
+    code = (
+        "import json; from windswept.gpu.device import adapter_limits, adapter_summary; "
+        "print(json.dumps([adapter_summary(), adapter_limits()]))"
+    )
     child = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    return child.stdout.strip() or None
+    if not child.stdout.strip():
+        return None
+    summary, limits = json.loads(child.stdout)
+    return summary, limits
 
 
 def install_driver() -> None:

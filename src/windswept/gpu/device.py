@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
 import os
+import shutil
 import tempfile
 from functools import cache
 from typing import Any
@@ -46,6 +48,20 @@ def adapter_summary() -> str:
     return f"{_name(adapter)}, {adapter.info['adapter_type']}, {adapter.info['backend_type']}"
 
 
+def adapter_limits() -> dict[str, int | bool]:
+    """What decides how much of a scene fits on the adapter, and whether it tells how long its stages take.
+
+    Returns:
+        ``binds_bytes`` and ``buffer_bytes``: what a shader sees of one buffer, and what one may have; ``has_clock``.
+
+    Raises:
+        GraphicsError: no adapter.
+    """
+    adapter = _best_adapter()
+    binds, buffer = (int(adapter.limits[name]) for name in _RAISED_LIMITS)
+    return {"binds_bytes": binds, "buffer_bytes": buffer, "has_clock": TIMESTAMPS in adapter.features}
+
+
 def is_software(device: Any) -> bool:
     """Whether the device draws on the CPU, where triangles are dear."""
     return bool(device.adapter.info["adapter_type"] == "CPU")
@@ -59,7 +75,9 @@ def _name(adapter: Any) -> str:
 def _best_adapter() -> Any:
     """The adapter wgpu prefers; enumerated first, since asking for one that is not there panics."""
     if "XDG_RUNTIME_DIR" not in os.environ:
-        os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="windswept-runtime-")
+        # Mesa asks for one; it is gone when the process ends.
+        os.environ["XDG_RUNTIME_DIR"] = folder = tempfile.mkdtemp(prefix="windswept-runtime-")
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
     missing = f"no graphics adapter found; a software one comes with: {DRIVER_LINE}"
     if not wgpu.gpu.enumerate_adapters_sync():
         raise GraphicsError(missing)
