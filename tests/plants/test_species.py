@@ -131,7 +131,7 @@ def test_forms_have_the_fields_of_what_they_fill(form, noun):
         ("scale = 10.0", "scale = 2020-01-01", "growth.scale = datetime.date(2020, 1, 1): expected a number"),
         ("scale = 10.0", "scale = 1" + "0" * 400, "growth.scale = 1000"),
         ("scale = 10.0", "scale = 1" + "0" * 5000, "expected valid TOML"),
-        ("levels = 2", "levels = true", "growth.levels = True: expected a whole number from 1 to 4"),
+        ("levels = 2", "levels = true", "growth.levels = true: expected a whole number from 1 to 4"),
         ("levels = 2", "levels = 2.5", "growth.levels = 2.5: expected a whole number from 1 to 4"),
         (
             "branches = 5",

@@ -135,8 +135,8 @@ BAD = {
     ),
     "unknown species": (
         with_clover(source="white_clovr"),
-        "spread.species[0].source = 'white_clovr': expected built-in underbrush or a built-in species: did you mean "
-        "white_clover?",
+        "spread.species[0].source = 'white_clovr': expected a built-in species, underbrush or grammar, or a file: "
+        "did you mean white_clover?",
     ),
     "reversed light": (with_clover(light=[0.9, 0.1]), "light = [0.9, 0.1]: expected the lower number first"),
     "reversed slope": (

@@ -83,11 +83,14 @@ def test_figure_8_shows_every_rate_and_the_papers(tmp_path: Path) -> None:
     assert dots["with"]["FRAMES"][1] < dots["with"]["CPU"][1]
 
 
-def test_a_folder_that_is_not_there_is_refused_before_any_work(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_file_where_the_folder_should_be_is_refused_before_any_work(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "taken").write_text("a file")
     with pytest.raises(SystemExit) as stopped:
-        main(["reproduce", "skjermo", "-o", "/nowhere/at/all"])
+        main(["reproduce", "skjermo", "-o", str(tmp_path / "taken")])
     assert stopped.value.code == 2
-    assert "a folder that exists" in capsys.readouterr().err
+    assert "taken" in capsys.readouterr().err
 
 
 def test_the_wood_leans_in_the_gust(tmp_path: Path) -> None:
