@@ -1,4 +1,9 @@
-"""The same rods as a MuJoCo model: explicit inertials, two hinges a joint, no gravity, no contacts."""
+"""The same rods as a MuJoCo model: explicit inertials, two hinges a joint, no gravity, no contacts.
+
+Two hinges in series turn a link by one axis after the other; a joint of ours turns by one rotation vector and never
+twists. The two part with the product of both angles: at the same angles, tips of a limp tree of 1,000 links in a gusty
+7 m/s are 1.1 % of their motion apart, most of what separates `multibody` from MuJoCo there.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
 """Free sway after a pull: a crown damps itself, since the trunk's energy goes into branches that beat out of step.
 
 Measured trees have limbs whose own frequencies crowd round the trunk's (Rodriguez et al. 2008); limbs of grown plants
-are stiffer. So the study softens or stiffens each limb as a whole until it rings near the trunk that carries it, lets
-the tree sway from a pull on its trunk in still air, and draws it beside the same tree without side branches:
+are stiffer, and their crowns damp nothing: the study prints that too. So it softens or stiffens each limb as a whole
+until it rings near the trunk that carries it, lets the tree sway from a pull on its trunk in still air, and draws it
+beside the same tree without side branches:
 ``python -m windswept.studies.multibody_branching -o branching_damping.png``.
 """
 
@@ -129,13 +130,15 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--species", default="scots_pine")
     parser.add_argument("--periods", type=float, default=12.0)
     options = parser.parse_args(arguments)
-    tree = tuned_to_trunk(airless(grow(options.species, 0)))
+    grown = airless(grow(options.species, 0))
+    tree = tuned_to_trunk(grown)
     sways = {
         "with its branches": free_sway(tree, options.periods),
         "the same tree without side branches": free_sway(trunk_alone(tree), options.periods),
         "its joints decoupled (springs)": free_sway(tree, options.periods, decoupled=True),
     }
     ratios = {name: damping_ratio(sway) for name, sway in sways.items()}
+    print("a tree whose limbs are tuned to ring near their trunk:")
     draw_branching(
         {name: (s.periods, s.displacement) for name, s in sways.items()},
         ratios,
@@ -145,6 +148,9 @@ def main(arguments: list[str] | None = None) -> None:
     for name, ratio in ratios.items():
         print(f"{name:<40} damping ratio {ratio:.3f}")
     print(f"{'every branch by itself':<40} damping ratio {DAMPING_RATIO:.3f}")
+    print("the tree as it is grown, its limbs stiffer:")
+    for name, plant in (("with its branches", grown), ("without side branches", trunk_alone(grown))):
+        print(f"{name:<40} damping ratio {damping_ratio(free_sway(plant, options.periods)):.3f}")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """`multibody` at its usual step against itself at finer ones, and whether plants come to rest in a steady storm.
 
-``python -m windswept.studies.multibody_steps [SPECIES ...]``: a JSON row a plant, then one of the energy of a whip.
+``python -m windswept.studies.multibody_steps [SPECIES ...]``: a JSON row a plant, then one of the energy of a tree.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from windswept.levels.measure import followed_tips, tip_positions
 from windswept.levels.training_wind import PLACEMENTS, Air, training_air
 from windswept.motion import Model, build_model, finest_level, rest_state
 from windswept.motion.multibody import MultibodyStepper, coupled, coupled_rest
-from windswept.motion.multibody.plain import energy
+from windswept.motion.multibody.constants import forces_at, warped_step
+from windswept.motion.multibody.plain import energy, kinematics, mass_matrix
 from windswept.motion.rods import Doubles
 from windswept.motion.sweeps import joint_torque
 from windswept.plants.plant import Floats
@@ -31,8 +32,14 @@ FINER = 16
 """Steps of the truth for one of the usual."""
 STORMS = (12.0, 20.0, 30.0, 40.0)
 """Steady winds at every height, m/s."""
-SWUNG_LINKS, SWUNG_ANGLE, RATES = 39, 0.01, (5.0, 30.0, 120.0, 480.0, 2000.0)
-"""Of a tree that swings freely after a pull: links, angle of the joint that is bent most (rad), steps a second."""
+SWAY_WIND, SWAY_ASIDE, SWAY_SECONDS = (20.0, 0.0, 0.0), (21.0, 2.0, 0.0), 2.0
+"""A plant that a wind holds is blown aside for half a second and sways back freely for so long; m/s and s."""
+SWUNG_LINKS, SWUNG_ANGLES, RATES = 39, (0.001, 0.01), (5.0, 30.0, 120.0, 480.0, 2000.0)
+"""Of a tree that swings freely after a pull: links, angles of the joint that is bent most (rad), steps a second.
+
+The gentler swing loses what SETTLING takes of each mode. The wider one loses more: it is no longer linear, and passes
+energy on to stiffer modes, which SETTLING takes sooner.
+"""
 
 
 def tips_in_wind(model: Model, air: Air, finer: int) -> tuple[Doubles, float]:
@@ -70,6 +77,30 @@ def rates_in_storms(model: Model) -> list[float]:
     return [float(np.abs(state.velocities(placement)).max()) for placement in range(len(STORMS))]
 
 
+def sway_in_wind(model: Model, finer: int) -> Doubles:
+    """(time, 1, n, 3) free sway of tips about where SWAY_WIND holds them, m.
+
+    Args:
+        model: at its usual step.
+        finer: steps for one of the usual.
+    """
+    fine = replace(model, time_step=model.time_step / finer)
+    level = replace(finest_level(fine), coupled=True)
+    stepper, state = MultibodyStepper(fine), coupled_rest(fine, 1)
+    tips, second = followed_tips(fine, MOST_TIPS), round(1.0 / fine.time_step)
+    wind, aside = (np.zeros((1, len(model.probe_position), 3), np.float32) for _ in range(2))
+    wind[:], aside[:] = SWAY_WIND, SWAY_ASIDE
+    stepper.step(state, np.zeros_like(wind), wind, second)
+    stepper.step(state, wind, wind, 5 * second)
+    held = tip_positions(fine, level, state, tips).astype(np.float64)
+    stepper.step(state, aside, aside, second // 2)
+    seen = []
+    for _ in range(round(SWAY_SECONDS / model.time_step)):
+        stepper.step(state, wind, wind, finer)
+        seen.append(tip_positions(fine, level, state, tips) - held)
+    return np.array(seen)
+
+
 def bent_by_a_pull(model: Model) -> Doubles:
     """(L, 2) joint angles of a plant whose every mass is pulled aside alike, in no unit."""
     skeleton, rods = model.skeleton, model.rods
@@ -79,13 +110,29 @@ def bent_by_a_pull(model: Model) -> Doubles:
     return np.asarray(joint_torque(*tree, force.copy(), np.cross(lever, force)) * rods.compliance)
 
 
-def energy_left(rate: float) -> float:
-    """Share of its energy that an undamped tree still has after a minute, at so many steps a second."""
+def settled_share(model: Model, angles: Doubles, seconds: float) -> float:
+    """Share of its energy that a plant let go at rest keeps when SETTLING alone damps its modes, in small angles."""
+    still, root = np.zeros((model.link_count, 2)), np.sqrt(model.rods.compliance.ravel())
+    mass = mass_matrix(model, kinematics(model, still, still))
+    values, shapes = np.linalg.eigh(root[:, None] * mass * root)
+    energies = (shapes.T @ (angles.ravel() / root)) ** 2
+    beyond = forces_at(model) / warped_step(model) - 0.5
+    kept = np.exp(-2.0 / values * beyond * model.time_step * seconds)
+    return float(np.sum(energies * kept) / np.sum(energies))
+
+
+def energy_left(rate: float, angle: float) -> tuple[float, float]:
+    """Share of its energy that an undamped tree has after a minute, and the share that SETTLING alone would leave.
+
+    Args:
+        rate: steps a second.
+        angle: that the joint bent most is pulled to, rad.
+    """
     plant = plant_with_links(SWUNG_LINKS, 0)
     free = replace(plant.material, damping_ratio=0.0, wood_drag=0.0, leaf_drag=0.0)
     model = build_model(replace(plant, material=free), time_step=1.0 / rate)
     bent, start = bent_by_a_pull(model), rest_state(finest_level(model), 1)
-    start.angles(0)[:] = bent * SWUNG_ANGLE / np.abs(bent).max()
+    start.angles(0)[:] = bent * angle / np.abs(bent).max()
     state = coupled(model, start)
     calm: Floats = np.zeros((1, len(model.probe_position), 3), np.float32)
 
@@ -94,8 +141,9 @@ def energy_left(rate: float) -> float:
         return energy(model, state.angles(0).astype(np.float64), carried)
 
     before = now()
+    expected = settled_share(model, state.angles(0).astype(np.float64), 60.0)
     MultibodyStepper(model).step(state, calm, calm, round(60.0 * rate))
-    return now() / before
+    return now() / before, expected
 
 
 def rows(species: list[str]) -> Iterator[dict[str, object]]:
@@ -107,9 +155,17 @@ def rows(species: list[str]) -> Iterator[dict[str, object]]:
             (usual, fast), (true, truly_fast) = (tips_in_wind(model, air, finer) for finer in (1, FINER))
             row[f"{wind}_error"] = rms(usual - true) / rms(true - true[0])
             row[f"{wind}_fastest_rad_s"] = [fast, truly_fast]
+        usual, true = (sway_in_wind(model, finer) for finer in (1, FINER))
+        row["sway_error"] = rms(usual - true) / rms(true)
         row["rates_in_storms_rad_s"] = rates_in_storms(model)
         yield row
-    yield {"energy_left_after_a_minute": {f"{rate:g} Hz": energy_left(rate) for rate in RATES}}
+    for angle in SWUNG_ANGLES:
+        left = {f"{rate:g} Hz": energy_left(rate, angle) for rate in RATES}
+        yield {
+            "pulled_rad": angle,
+            "energy_left_after_a_minute": {rate: share for rate, (share, _) in left.items()},
+            "settling_alone_leaves": {rate: share for rate, (_, share) in left.items()},
+        }
 
 
 def main(arguments: list[str] | None = None) -> None:
