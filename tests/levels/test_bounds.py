@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from handmade import build_plant, straight
 from windswept.levels import (
     Ladder,
     bound_errors,
@@ -39,6 +40,14 @@ def test_no_tip_of_any_level_exceeds_its_bound(hazel: Ladder) -> None:
     # A bound that is never exceeded because it is endless would be worth nothing.
     assert hazel.bound[-1] < 2.0 * hazel.hierarchy.model.skeleton.base[:, 2].max()
     assert hazel.bound[1] < 0.5 * hazel.bound[-1]
+
+
+def test_a_post_is_bounded_in_wind_that_differs_along_it() -> None:
+    # In wind that is the same at every height its levels err by far less than in any other.
+    ladder = build_ladder(simplify(build_model(build_plant(straight(3.0, 10, 0.06, 0.05, leaves=3)))))
+    largest = measure(ladder, seconds=5.0).largest
+    assert (bound_errors(ladder)[1:] > largest[1:]).all()
+    assert (largest[1:] > 0.0).all()
 
 
 @pytest.mark.slow

@@ -18,8 +18,6 @@ from windswept.plants.plant import Floats, Ints
 
 Doubles = NDArray[np.float64]
 
-BUCKETS = 4
-"""Grids of falling fineness that stems are drawn with."""
 LEAF_MESHES = 3
 """Leaf meshes of falling fineness."""
 SLENDER = 40.0

@@ -18,15 +18,18 @@ FRONT_PERIOD = 4.0
 FRONT_RISE = 2.0
 """From calm to full speed in such a front, m: as sharp as the sharpest gust of the training wind."""
 PAUSES = (0.15, 0.3, 0.6, 1.2, 2.4)
-"""How long the random wind holds a speed and direction, s."""
+"""How long the random wind holds a speed, a direction and a height, s."""
+WHOLE_SHARE = 0.5
+"""Share of the random wind that blows at every height; the rest blows above one, as over shelter."""
 
 
 def maximal_wind(model: Model, speed: float = STATED_WIND, seed: int = 0) -> Air:
     """Eight winds at once that never exceed a speed and change as hard as wind can, and harder.
 
-    They blow at full speed at every height: a step, then calm; reversals; on and off at the plant's lowest and at its
-    middle frequency, which drives the motion up; sharp fronts that cross the crown at full and at half speed; a wind
-    that turns at the lowest frequency; a random sequence of speeds and directions.
+    They blow at full speed, all but the last at every height: a step, then calm; reversals; on and off at the plant's
+    lowest and at its middle frequency, which drives the motion up; sharp fronts that cross the crown at full and at
+    half speed; a wind that turns at the lowest frequency; a random sequence of speeds, directions and heights above
+    which it blows.
 
     Args:
         model: of the plant.
@@ -36,7 +39,7 @@ def maximal_wind(model: Model, speed: float = STATED_WIND, seed: int = 0) -> Air
     lowest = float(model.stem_frequency[model.skeleton.stem[0]]) / (2.0 * np.pi)
     middle = float(np.median(model.stem_frequency)) / (2.0 * np.pi)
     every = model.probe_position
-    times, drawn = _random_sequence(speed, np.random.default_rng(seed))
+    times, drawn, calm_below = _random_sequence(speed, float(every[:, 2].max()), np.random.default_rng(seed))
 
     def blow(level: Level, time: float) -> Floats:
         probes = level.probe_position
@@ -50,7 +53,8 @@ def maximal_wind(model: Model, speed: float = STATED_WIND, seed: int = 0) -> Air
         wind[4] = _fronts(every, probes, time, speed, speed, 0.8)
         wind[5] = _fronts(every, probes, time, speed, 0.5 * speed, 3.9)
         wind[6] = _along(speed, 2.0 * np.pi * lowest * time)
-        wind[7, :, :2] = drawn[np.searchsorted(times, time, side="right") - 1]
+        now = np.searchsorted(times, time, side="right") - 1
+        wind[7, :, :2] = drawn[now] * (probes[:, 2:] >= calm_below[now])
         return wind
 
     return blow
@@ -76,10 +80,14 @@ def _fronts(
     return rise[:, None].astype(np.float32) * _along(speed, azimuth)
 
 
-def _random_sequence(speed: float, rng: np.random.Generator) -> tuple[Floats, Floats]:
-    """(n,) times and (n, 2) winds from each of them on, a third of them calm."""
+def _random_sequence(speed: float, height: float, rng: np.random.Generator) -> tuple[Floats, Floats, Floats]:
+    """(n,) times, (n, 2) winds from each of them on, a third of them calm, and (n,) heights that they blow above."""
     pauses = rng.choice(PAUSES, 400)
     strength = speed * np.sqrt(rng.uniform(0.0, 1.0, 400)) * (rng.uniform(0.0, 1.0, 400) > 0.3)
     azimuth = rng.uniform(0.0, 2.0 * np.pi, 400)
     winds = strength[:, None] * np.column_stack([np.cos(azimuth), np.sin(azimuth)])
-    return (np.cumsum(pauses) - pauses).astype(np.float32), winds.astype(np.float32)
+    calm_below = height * np.maximum(
+        rng.uniform(-WHOLE_SHARE, 1.0 - WHOLE_SHARE, 400) / (1.0 - WHOLE_SHARE), 0.0
+    )
+    times = np.cumsum(pauses) - pauses
+    return times.astype(np.float32), winds.astype(np.float32), calm_below.astype(np.float32)

@@ -17,8 +17,9 @@ modes. Then what all joints have to accelerate by is -B y with ::
     B = (1 - P) w (1 - P) + Phi W modal  =  w + D,    D y = Phi (Q modal(y) - modal(w y)) - w Phi modal(y)
 
 where Q = modal(w Phi) + W. Every joint takes its own step exactly, and then its rate is changed by -D y times the step.
-K D is symmetric, so this is the torque of a potential, and kicks by it neither feed nor drain the motion. Damping,
-c_j = 2 zeta omega, is shared out in the same way.
+B Phi = Phi W, and beside the modes B is (1 - P) w (1 - P), which is self-adjoint in elastic energy: all frequencies of
+B are real, and kicks neither feed nor drain the motion while a mode takes several steps. Damping, c_j = 2 zeta omega,
+is shared out in the same way.
 
 Where y is zero nothing is added: static deflection stays exact, and rest stays rest. Nothing is remembered from step to
 step, so plants may change their level at any time.
@@ -43,7 +44,11 @@ NEAR_ENOUGH = 1e-4
 LEFT_OUT = 0.05
 """Share of each mode's elastic energy in the joints that are left out of it, those that turn least."""
 FASTEST = 1.0
-"""Radians a step beyond which a joint for itself is too fast to be told what the modes do."""
+"""Radians a step beyond which a mode is too fast to be kicked, and a joint for itself too fast to be told of modes.
+
+Kicks feed a mode of more than two radians a step, of fewer where it is damped. All joints of a stem have its lowest
+frequency, but its further modes are several times as fast.
+"""
 LEAST_SHARE = 0.25
 """A mode of which a level's links hold less elastic energy, beyond what they hold of other modes, is left out."""
 
@@ -89,9 +94,10 @@ def plant_modes(
         time_step: fixed inner step, s.
     """
     omega, angle = natural_modes(skeleton, rods, MODE_COUNT, NEAR_ENOUGH)
-    # A single link has two freedoms: modes of no shape have no energy, and are left out.
+    # A single link has two freedoms. Modes of no shape have no energy, and are left out.
     lacking = MODE_COUNT - len(omega)
     omega, angle = np.pad(omega, (0, lacking), "edge"), np.pad(angle, ((0, 0), (0, 0), (0, lacking)))
+    angle[..., omega * time_step >= FASTEST] = 0.0
     torque = angle / rods.compliance[:, :, None]
     energy = np.sum(torque * angle, axis=1)
     lag = 2.0 * damping_ratio / frequency

@@ -37,7 +37,7 @@ class Errors:
     multibody: float
     """Distance from MuJoCo's, m."""
     springs: float
-    """The same of the decoupled joints, m."""
+    """The same of the joints of `springs`, m."""
 
 
 def compare(model: Model, air: Air, seconds: float, mujoco_step: float) -> Errors:
@@ -52,7 +52,7 @@ def compare(model: Model, air: Air, seconds: float, mujoco_step: float) -> Error
     interval = SUBSTEPS * model.time_step
     parts = int(np.ceil(interval / mujoco_step))
     level, links = finest_level(model), np.arange(model.link_count, dtype=np.int32)
-    coupling, decoupled, theirs = (
+    coupling, jointed, theirs = (
         MultibodyStepper(model),
         Stepper(level),
         MujocoPlant(model, interval / parts),
@@ -62,7 +62,7 @@ def compare(model: Model, air: Air, seconds: float, mujoco_step: float) -> Error
     for sample in range(round(seconds / interval)):
         before, after = air(sample * interval), air((sample + 1) * interval)
         coupling.step(ours, before, after, SUBSTEPS)
-        decoupled.step(plain, before, after, SUBSTEPS)
+        jointed.step(plain, before, after, SUBSTEPS)
         for part in range(parts):
             theirs.step((before[0] + (after[0] - before[0]) * ((part + 0.5) / parts)).astype(np.float64))
         seen.append([theirs.tips(), link_tips(model, ours, links)[0], link_tips(model, plain, links)[0]])

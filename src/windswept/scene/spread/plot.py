@@ -33,11 +33,6 @@ class Plot:
     is_open: NDArray[np.bool_]
     """(R, C) whether plants may spread to the cell."""
 
-    @property
-    def cell_middles(self) -> tuple[Reals, Reals]:
-        """(R, C) x and y of the middles of cells, m."""
-        return middles(self.grid)
-
 
 def build_plot(terrain: Terrain, nutrients: list[Nutrient], area: Area | None = None) -> Plot:
     """The ground of a spread.
