@@ -40,7 +40,9 @@ def stand_of(plants: list[Plant], counts: list[int], depth: float = 40.0) -> Sce
     )
 
 
-def both(scene: Scene, ladders: list[Ladder], plants: list[Plant]) -> tuple[Simulation, GpuSimulation]:
+def both(
+    scene: Scene, ladders: list[Ladder], plants: list[Plant], card: type[GpuSimulation] = GpuSimulation
+) -> tuple[Simulation, GpuSimulation]:
     """The same scene on the CPU and on the card, each kind on the levels of its ladder."""
     simulation = Simulation(scene, plants, picture_height=1080)
     simulation.kinds = [
@@ -51,7 +53,7 @@ def both(scene: Scene, ladders: list[Ladder], plants: list[Plant]) -> tuple[Simu
     if scene.field is not None:
         simulation.field = start_field(scene.field, scene.wind)
     simulation._sample_winds()
-    return simulation, GpuSimulation(scene, kinds_of(simulation), picture_height=1080)
+    return simulation, card(scene, kinds_of(simulation), picture_height=1080)
 
 
 def kinds_of(simulation: Simulation) -> list[GrownKind]:

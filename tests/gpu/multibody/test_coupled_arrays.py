@@ -12,7 +12,7 @@ from handmade import random_tree
 from windswept.gpu.layouts import COUNTS, NONE, REALS
 from windswept.gpu.multibody import layouts
 from windswept.gpu.multibody.coupled_arrays import rod_rows, ways
-from windswept.motion import build_model
+from windswept.motion import build_model, finest_level
 
 STRUCTS = {"Rod": layouts.ROD, "Coupled": layouts.COUPLED}
 
@@ -64,7 +64,7 @@ def test_a_link_before_one_that_does_not_follow_is_a_tip():
 
 def test_rods_hold_the_plant():
     model = build_model(random_tree(2))
-    rows, skeleton = rod_rows(model), model.skeleton
+    rows, skeleton = rod_rows(model, finest_level(model)), model.skeleton
     inner = skeleton.parent >= 0
     reach = np.linalg.norm(rows["foot"][:, :3], axis=1)
     expected = (skeleton.attach * skeleton.length[skeleton.parent])[inner]
