@@ -18,6 +18,10 @@
 @group(0) @binding(9) var<uniform> moment: Moment;
 @group(0) @binding(10) var<storage, read> groups: array<Group>;
 
+// Whether this dispatch walks the rungs that have groups, or those that have none: the loop over a link's groups costs
+// every link that has none, on a software driver as much as the link itself.
+override LADEN: bool = false;
+
 @compute @workgroup_size(64)
 fn descend_block(
     @builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) spread: vec3u, @builtin(local_invocation_index) lane: u32
@@ -26,7 +30,8 @@ fn descend_block(
     for (var b = group.x; b < blocks[0].x; b += spread.x) {
         let block = blocks[1u + b];
         let rung = rungs[block.x];
-        if is_coupled(rung) && lane < block.z { descend(column_at(rung, coupled[block.x], block.y, lane), late); }
+        let meant = is_coupled(rung) && (rung.groups.y > 0u) == LADEN;
+        if meant && lane < block.z { descend(column_at(rung, coupled[block.x], block.y, lane), late); }
     }
 }
 

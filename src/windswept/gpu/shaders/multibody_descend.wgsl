@@ -62,7 +62,7 @@ fn descend(column: Column, late: f32) {
     let stride = column.stride;
     var here = GROUND;
     var group = column.grounded;
-    _ = swing_groups(column, 0u, group, here, late);
+    if LADEN { _ = swing_groups(column, 0u, group, here, late); }
     for (var i = 0u; i < column.links; i++) {
         let rod = rods[column.rods + i];
         let record = record_of(column, i);
@@ -79,7 +79,8 @@ fn descend(column: Column, late: f32) {
         carried[kept + stride] += vec4f(pace.z * b_behind, 0.0);
         let air = air_at(column.wind, stride, rod.rows.y, late);
         let drag = drag_on(rod, link.direction, here.along + rod.foot.w * b_rate, air);
-        let laden = swing_groups(column, group, u32(rod.mass.w), here, late);
+        var laden = Laden(vec3f(0.0), vec3f(0.0), 0.0);
+        if LADEN { laden = swing_groups(column, group, u32(rod.mass.w), here, late); }
         group = u32(rod.mass.w);
         weigh(rod, link.direction, behind / pace.y, b_behind / pace.y, drag, laden, record, stride);
     }
