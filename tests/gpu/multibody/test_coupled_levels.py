@@ -54,6 +54,18 @@ def test_ten_gusty_seconds_at_every_level(limp_trees, coupled_ladders):
     assert worst.max() < 5e-6
 
 
+def test_a_storm_pulls_merged_branches_as_on_the_cpu(limp_trees, coupled_ladders):
+    # Where the air's pull on groups is what holds their carriers: without it 1e-5 to 5e-5.
+    tree, ladder = limp_trees[1], coupled_ladders[1]
+    ladders = [only(ladder, int(place)) for place in ladder.merged(coupled=True)]
+    count = len(ladders)
+    scene = stand_of([tree] * count, [2] * count)
+    scene = replace(scene, wind=replace(scene.wind, mean=replace(scene.wind.mean, speed=40.0)))
+    simulation, card = both(scene, ladders, [tree] * count, CoupledSimulation)
+    for _ in range(8):
+        assert gaps(simulation.advance(0.25), card.advance(0.25)).max() < 2e-6
+
+
 def test_plants_pass_between_the_models_as_on_the_cpu(limp_trees, coupled_ladders):
     simulation, card = both(stand_of(limp_trees, [30, 21]), coupled_ladders, limp_trees, CoupledSimulation)
     way = -2.0 - 60.0 * (1.0 - np.cos(np.arange(100) * 3.0 / 16.0))
