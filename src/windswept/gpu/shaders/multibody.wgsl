@@ -18,8 +18,8 @@
 @group(0) @binding(9) var<uniform> moment: Moment;
 @group(0) @binding(10) var<storage, read> groups: array<Group>;
 
-// Whether this dispatch walks the rungs that have groups, or those that have none: the loop over a link's groups costs
-// every link that has none, on a software driver as much as the link itself.
+// Whether this dispatch walks the rungs that have groups, or those that have none: the latter are spared the loop over a
+// link's groups, through whose body a software driver goes once even where there are none.
 override LADEN: bool = false;
 
 @compute @workgroup_size(64)
