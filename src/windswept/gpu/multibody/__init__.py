@@ -2,8 +2,8 @@
 
 ::
 
-    RungArrays --coupled_arrays--> CoupledArrays  rods of coupled rungs, and where their memory begins (coupled_arrays.py)
-    CoupledState --put--> joints, carried rows --states--> CoupledState                           (coupled_rows.py)
+    RungArrays --coupled_arrays--> CoupledArrays  rods of coupled rungs, where memory begins (coupled_arrays.py)
+    CoupledState --put--> joints, carried rows --states--> CoupledState                          (coupled_rows.py)
     CardState --CoupledWalk--> changes of level, the wind, three walks a step, poses  (walk.py, shaders/multibody*.wgsl)
 
 `CoupledSimulation` in simulation.py is a ``GpuSimulation`` some rungs of which are coupled: levels, wind, posing and
