@@ -10,7 +10,9 @@ import pytest
 from stands import blending, both, check_seats, eye_at, fly, gaps, kinds_of, only, stand_of
 from windswept.errors import GraphicsError
 from windswept.gpu import layouts
+from windswept.gpu.multibody import walk
 from windswept.gpu.multibody.simulation import CoupledSimulation
+from windswept.gpu.springs import turns
 from windswept.levels import Ladder, measured_ladder
 from windswept.motion.multibody import link_velocities
 
@@ -193,3 +195,14 @@ def test_levels_that_do_not_fit_are_said(limp_trees, coupled_ladders):
     simulation, _ = both(stand_of(limp_trees, [3, 2]), coupled_ladders, limp_trees, CoupledSimulation)
     with pytest.raises(GraphicsError, match=r"needs .* MB .* on the CPU"):
         CoupledSimulation(simulation.scene, kinds_of(simulation), room=1_000)
+
+
+def test_a_merged_level_too_large_for_a_software_driver_is_said(limp_trees, coupled_ladders, monkeypatch):
+    simulation, _ = both(stand_of(limp_trees, [3, 2]), coupled_ladders, limp_trees, CoupledSimulation)
+    monkeypatch.setattr(turns, "is_software", lambda device: True)
+    monkeypatch.setattr(walk, "LADEN_TURNS", 6000)
+    with pytest.raises(GraphicsError, match=r"1\d links .* moves 10 at most: simulate on the CPU"):
+        CoupledSimulation(simulation.scene, kinds_of(simulation))
+    # A level without groups has no loop over them.
+    finest = [replace(kind, ladder=None) for kind in kinds_of(simulation)]
+    assert CoupledSimulation(simulation.scene, finest).advance(0.1).step_count == 12
