@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from windswept.gpu import layouts
 from windswept.gpu.springs.kinds import GrownKind
 from windswept.gpu.springs.simulation import GpuSimulation
-from windswept.levels import Ladder
+from windswept.levels import Eye, Ladder
 from windswept.plants.plant import Material, Plant
 from windswept.scene.level_set import LevelSet
 from windswept.scene.load_scene import load_scene
@@ -40,7 +41,9 @@ def stand_of(plants: list[Plant], counts: list[int], depth: float = 40.0) -> Sce
     )
 
 
-def both(scene: Scene, ladders: list[Ladder], plants: list[Plant]) -> tuple[Simulation, GpuSimulation]:
+def both(
+    scene: Scene, ladders: list[Ladder], plants: list[Plant], card: type[GpuSimulation] = GpuSimulation
+) -> tuple[Simulation, GpuSimulation]:
     """The same scene on the CPU and on the card, each kind on the levels of its ladder."""
     simulation = Simulation(scene, plants, picture_height=1080)
     simulation.kinds = [
@@ -51,7 +54,7 @@ def both(scene: Scene, ladders: list[Ladder], plants: list[Plant]) -> tuple[Simu
     if scene.field is not None:
         simulation.field = start_field(scene.field, scene.wind)
     simulation._sample_winds()
-    return simulation, GpuSimulation(scene, kinds_of(simulation), picture_height=1080)
+    return simulation, card(scene, kinds_of(simulation), picture_height=1080)
 
 
 def kinds_of(simulation: Simulation) -> list[GrownKind]:
@@ -90,3 +93,38 @@ def winds_of_cpu(level_set: LevelSet) -> np.ndarray:
     """(P, B, 2, 3) what a set on the CPU holds of it."""
     assert level_set.winds is not None
     return np.stack(level_set.winds, axis=2)
+
+
+def eye_at(y: float) -> Eye:
+    """Who looks all round from a place in front of the stand, or in it."""
+    return Eye(np.array([0.0, y, 2.0], np.float32), float(np.radians(60.0)), 1080)
+
+
+def fly(
+    simulation: Simulation, card: GpuSimulation, ways: Iterable[float | Eye], seconds: float = 1.0 / 30.0
+) -> Iterator[None]:
+    """Moves both eyes along y and lets time pass; yields at every place."""
+    for where in ways:
+        simulation.eye = card.eye = where if isinstance(where, Eye) else eye_at(where)
+        simulation.advance(seconds)
+        card.advance(seconds)
+        yield
+
+
+def blending(card: GpuSimulation) -> int:
+    """Placements that are on their way from one level to another."""
+    return int((card.card.read("motions", layouts.MOTION)["origin"][:, 0] != layouts.NONE).sum())
+
+
+def check_seats(card: GpuSimulation) -> None:
+    """Every placement stands in the slots that it knows of, and no slot is taken twice or left open."""
+    motions = card.card.read("motions", layouts.MOTION)
+    members, populations = card.card.read("members", "<u4"), card.card.read("populations", "<u4")
+    seats = 0
+    for field in ("at", "origin"):
+        for placement, (rung, slot) in enumerate(motions[field][:, :2]):
+            if rung != layouts.NONE:
+                seats += 1
+                assert slot < populations[rung]
+                assert members[card._arrays.rungs["probes"][rung, 3] + slot] == placement
+    assert seats == populations.sum()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -32,16 +33,34 @@ def test_springs_stand_below_multibody_with_their_error(capsys: pytest.CaptureFi
     assert 0.0 < springs["measured_p95_m"] < springs["measured_max_m"] <= springs["bound_m"]
 
 
-def test_the_card_couples_links_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    scene = write_scene(tmp_path, away=5.0)
-    options = ("--size", "320x240", "--at", 1, "--multibody", "--json")
-    assert run("render", scene, "-o", tmp_path / "cpu.png", "--no-levels", *options) == 0
-    assert run("render", scene, "-o", tmp_path / "card.png", "--gpu", *options) == 0
+def drawn_by_both(
+    folder: Path, capsys: pytest.CaptureFixture[str], away: float, *options: object
+) -> tuple[dict[str, Any], dict[str, Any], float]:
+    """What the CPU and the card say of a scene under multibody, and how far their pictures part, in 255ths."""
+    scene = write_scene(folder, away)
+    more = ("--size", "320x240", "--at", 1, "--multibody", "--json", *options)
+    assert run("render", scene, "-o", folder / "cpu.png", *more) == 0
+    assert run("render", scene, "-o", folder / "card.png", "--gpu", *more) == 0
     cpu, card = (json.loads(line) for line in capsys.readouterr().out.splitlines())
-    assert card["stepped"] == card["links"] == cpu["stepped"]
-    assert "steps_per_second" not in card
     pictures = []
     for name in ("cpu", "card"):
-        with Image.open(tmp_path / f"{name}.png") as image:
+        with Image.open(folder / f"{name}.png") as image:
             pictures.append(np.asarray(image).astype(int))
-    assert np.abs(pictures[0] - pictures[1]).mean() < 0.1
+    return cpu, card, float(np.abs(pictures[0] - pictures[1]).mean())
+
+
+def test_the_card_couples_links_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cpu, card, apart = drawn_by_both(tmp_path, capsys, 5.0, "--no-levels")
+    assert card["stepped"] == card["links"] == cpu["stepped"]
+    assert "steps_per_second" not in card
+    assert apart < 0.1
+
+
+def test_the_card_leaves_multibody_far_from_the_camera_as_the_cpu_does(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cpu, card, apart = drawn_by_both(tmp_path, capsys, 40.0, "--level-colours")
+    assert card["placements_by_level"] == cpu["placements_by_level"]
+    assert len(card["placements_by_level"]) > 1
+    assert card["stepped"] == cpu["stepped"] < card["links"]
+    assert apart < 0.1

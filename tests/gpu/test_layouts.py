@@ -100,6 +100,9 @@ def test_no_set_takes_more_buffers_than_a_browser_gives(name):
     [
         f"const LANES = {layouts.LANES}u;",
         f"const MAX_ANGLE = {MAX_ANGLE};",
+        f"const STILL = {layouts.STILL:.1f};",
+        f"const SPRINGS = {layouts.SPRINGS:.1f};",
+        f"const MULTIBODY = {layouts.MULTIBODY:.1f};",
     ],
 )
 def test_constants_of_the_motion_agree_with_the_shader(line):
@@ -130,7 +133,7 @@ def test_constants_of_coupled_links_agree_with_the_shader(name):
 TABLE_LENGTHS = {
     "rungs": layouts.RUNG_LIMIT,
     "kinds": layouts.KIND_LIMIT,
-    "coupled": layouts.KIND_LIMIT,
+    "coupled": layouts.RUNG_LIMIT,
     "looks": layouts.LOOK_LIMIT,
 }
 
@@ -153,7 +156,7 @@ def test_uniform_tables_are_as_long_as_their_layouts_say():
         (layouts.RUNG_LIMIT, layouts.RUNG),
         (layouts.KIND_LIMIT, layouts.KIND),
         (layouts.KIND_LIMIT, DRAWN_KIND),
-        (layouts.KIND_LIMIT, COUPLED),
+        (layouts.RUNG_LIMIT, COUPLED),
         (layouts.LOOK_LIMIT, layouts.LOOK),
     ],
 )

@@ -60,11 +60,7 @@ def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, in
     is_flag=True,
     help="Simulate on the graphics card; on the CPU where it has too little memory or is lost.",
 )
-@click.option(
-    "--multibody",
-    is_flag=True,
-    help="Move plants near the camera with all their links coupled; with --gpu all plants, without levels.",
-)
+@click.option("--multibody", is_flag=True, help="Move plants near the camera with all their links coupled.")
 @click.option("--json", "as_json", is_flag=True, help="Report as one JSON object.")
 def command(
     source: str,
@@ -130,11 +126,10 @@ def start(
     from windswept.gpu.springs.kinds import grown_kinds
     from windswept.gpu.springs.simulation import GpuSimulation
 
-    kinds = grown_kinds(scene, levels and not multibody, say)
+    kinds = grown_kinds(scene, levels, say, multibody)
+    run = CoupledSimulation if multibody else GpuSimulation
     try:
-        if multibody:
-            return CoupledSimulation(scene, kinds, beds=beds)
-        return GpuSimulation(scene, kinds, picture_height=height, beds=beds, aspect=aspect)
+        return run(scene, kinds, picture_height=height, beds=beds, aspect=aspect)
     except GraphicsError as error:
         click.echo(f"windswept: {error}; simulating on the CPU", err=True)
         return _without_card(scene, [kind.plant for kind in kinds], beds, levels, size, multibody)

@@ -27,11 +27,7 @@ from windswept.scene.simulation import Simulation
     is_flag=True,
     help="Simulate on the graphics card; on the CPU where it has too little memory, in a new window if it is lost.",
 )
-@click.option(
-    "--multibody",
-    is_flag=True,
-    help="Move plants near the camera with all their links coupled; with --gpu all plants, without levels.",
-)
+@click.option("--multibody", is_flag=True, help="Move plants near the camera with all their links coupled.")
 def command(source: str, seed: int | None, level_colours: bool, gpu: bool, multibody: bool) -> None:
     """Open a live window on SCENE: drag to orbit, scroll to zoom, sliders for the wind, pause.
 
@@ -47,7 +43,7 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, mul
         scene: to show.
         level_colours: colour plants by their simulation level.
         gpu: simulate on the card.
-        multibody: couple the links of plants near the camera; on the card those of all plants.
+        multibody: couple the links of plants near the camera.
 
     Raises:
         GraphicsError: no display, no adapter, the window libraries are not installed, or the card was lost again.

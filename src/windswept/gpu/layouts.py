@@ -132,6 +132,8 @@ WORD = np.dtype("<u4")
 
 LANES = 64
 """Placements in one block: LANES of ``motion.wgsl``."""
+STILL, SPRINGS, MULTIBODY = 0, 1, 2
+"""What moves the plants of a rung: as in ``motion.wgsl``."""
 KIND_LIMIT, RUNG_LIMIT = 512, 800
 """Kinds, and simulation levels of all kinds, that the shaders' uniform tables hold."""
 NONE = 0xFFFFFFFF

@@ -9,10 +9,14 @@ import numpy as np
 import pytest
 
 from handmade import random_tree
-from windswept.gpu.layouts import COUNTS, NONE, REALS
+from stands import stand_of
+from windswept.gpu.layouts import COUNTS, MULTIBODY, NONE, REALS
 from windswept.gpu.multibody import layouts
-from windswept.gpu.multibody.coupled_arrays import rod_rows, ways
-from windswept.motion import build_model
+from windswept.gpu.multibody.coupled_arrays import coupled_arrays, rod_rows, ways
+from windswept.gpu.springs.kinds import GrownKind
+from windswept.gpu.springs.room import block_size
+from windswept.gpu.springs.rung_arrays import rung_arrays
+from windswept.motion import build_model, finest_level
 
 STRUCTS = {"Rod": layouts.ROD, "Coupled": layouts.COUPLED}
 
@@ -64,7 +68,7 @@ def test_a_link_before_one_that_does_not_follow_is_a_tip():
 
 def test_rods_hold_the_plant():
     model = build_model(random_tree(2))
-    rows, skeleton = rod_rows(model), model.skeleton
+    rows, skeleton = rod_rows(model, finest_level(model)), model.skeleton
     inner = skeleton.parent >= 0
     reach = np.linalg.norm(rows["foot"][:, :3], axis=1)
     expected = (skeleton.attach * skeleton.length[skeleton.parent])[inner]
@@ -73,3 +77,37 @@ def test_rods_hold_the_plant():
     assert (rows["rows"][~inner, 0] == NONE).all()
     np.testing.assert_allclose(rows["mass"][:, 0], model.rods.mass, rtol=1e-6)
     np.testing.assert_allclose(rows["axis_1"][:, 3] * model.rods.compliance[:, 0], 1.0, rtol=1e-6)
+
+
+def test_rods_of_a_merged_level_hold_its_groups(limp_trees, coupled_ladders):
+    model = build_model(limp_trees[0])
+    for place in coupled_ladders[0].merged(coupled=True):
+        level = coupled_ladders[0].levels[place]
+        rows, mass = rod_rows(model, level), model.rods.mass
+        assert rows["mass"][:, 0].sum() == pytest.approx(mass.sum(), rel=1e-5)
+        assert (rows["mass"][:, 0] > 1.01 * mass[level.link]).any()
+        assert rows["mass"][-1, 3] == level.group_count
+        assert np.array_equal(np.diff(rows["mass"][:, 3], prepend=0.0), np.diff(level.group_start[1:]))
+        assert np.array_equal(rows["rows"][1:, 0], level.parent[1:])
+
+
+def test_only_coupled_rungs_take_what_coupled_links_need(limp_trees, coupled_ladders):
+    scene = stand_of(limp_trees, [70, 3])
+    pairs = zip(limp_trees, coupled_ladders, scene.placements, strict=True)
+    kinds = [GrownKind(tree, ladder.hierarchy.model, ladder, placed) for tree, ladder, placed in pairs]
+    arrays = rung_arrays(kinds, 1 << 30)
+    ours = coupled_arrays(kinds, arrays)
+    is_coupled, links = arrays.coupled, arrays.rungs["links"][:, 1]
+    assert 2 < is_coupled.sum() < len(is_coupled)
+    assert np.array_equal(arrays.rungs["air"][:, 3] == MULTIBODY, is_coupled)
+    assert not ours.coupled["pace"][~is_coupled].any()
+    first_rod = ours.coupled["rows"][is_coupled, 0].astype(int)
+    assert np.array_equal(np.append(first_rod, len(ours.rods))[1:] - first_rod, links[is_coupled])
+    size, room = block_size(list(arrays.levels)), arrays.rungs["room"][:, 3].astype(int)
+    assert not size.stack[is_coupled].any()
+    assert size.stack[~is_coupled].all()
+    for column, whole in zip(
+        size.columns[:, 3:].T, (ours.carried_rows, ours.record_rows, ours.slot_rows), strict=True
+    ):
+        assert not column[~is_coupled].any()
+        assert whole == (room * column).sum() > 0

@@ -171,7 +171,7 @@ def test_what_does_not_fit_is_said(trees):
     links = kind.model.link_count
     # Joints fit in so much, the records of links do not.
     room = 64 * 16 * 3 * links
-    with pytest.raises(GraphicsError, match=r"coupled links need .* MB .* on the CPU"):
-        CoupledSimulation(scene, [kind], room)
+    with pytest.raises(GraphicsError, match=r"needs .* MB .* on the CPU"):
+        CoupledSimulation(scene, [kind], room=room)
     with pytest.raises(GraphicsError, match="on the CPU"):
-        CoupledSimulation(scene, [kind], 1000)
+        CoupledSimulation(scene, [kind], room=1000)

@@ -7,48 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stands import both, gaps, kinds_of, stand_of
+from stands import blending, both, check_seats, eye_at, fly, gaps, kinds_of, stand_of
 from windswept.errors import GraphicsError
-from windswept.gpu import layouts
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.levels import Eye, outside_view
-
-
-def eye_at(y: float) -> Eye:
-    return Eye(np.array([0.0, y, 2.0], np.float32), float(np.radians(60.0)), 1080)
 
 
 def looking(y: float, way: float) -> Eye:
     """An eye that spares what it does not see."""
     ahead = np.array([np.sin(way), np.cos(way), 0.0], np.float32)
     return replace(eye_at(y), forward=ahead, measures=(outside_view,))
-
-
-def fly(simulation, card, ways, seconds: float = 1.0 / 30.0):
-    """Moves both eyes along y and lets time pass; yields at every place."""
-    for where in ways:
-        simulation.eye = card.eye = where if isinstance(where, Eye) else eye_at(where)
-        simulation.advance(seconds)
-        card.advance(seconds)
-        yield
-
-
-def blending(card: GpuSimulation) -> int:
-    return int((card.card.read("motions", layouts.MOTION)["origin"][:, 0] != layouts.NONE).sum())
-
-
-def check_seats(card: GpuSimulation) -> None:
-    """Every placement stands in the slots that it knows of, and no slot is taken twice or left open."""
-    motions = card.card.read("motions", layouts.MOTION)
-    members, populations = card.card.read("members", "<u4"), card.card.read("populations", "<u4")
-    seats = 0
-    for field in ("at", "origin"):
-        for placement, (rung, slot) in enumerate(motions[field][:, :2]):
-            if rung != layouts.NONE:
-                seats += 1
-                assert slot < populations[rung]
-                assert members[card._arrays.rungs["probes"][rung, 3] + slot] == placement
-    assert seats == populations.sum()
 
 
 def test_levels_and_blends_are_those_of_the_cpu(soft_trees, soft_ladders):

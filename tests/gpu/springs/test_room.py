@@ -8,7 +8,14 @@ import pytest
 from windswept.errors import GraphicsError
 from windswept.gpu.springs.room import BlockSize, room_for
 
-SIZE = BlockSize(np.array([1000, 300, 4, 80]), np.array([100, 50, 5, 20]), np.array([40, 20, 2, 10]))
+SIZE = BlockSize(
+    state=np.array([1000, 300, 4, 80]),
+    stack=np.array([0, 50, 5, 20]),
+    wind=np.array([40, 20, 2, 10]),
+    carried=np.array([500, 0, 0, 0]),
+    records=np.array([900, 0, 0, 0]),
+    slots=np.array([100, 0, 0, 0]),
+)
 PLACEMENTS = np.array([500, 500, 500, 5])
 COARSEST = np.array([False, False, True, True])
 

@@ -2,10 +2,10 @@
 
 ::
 
-    Model --coupled_arrays--> CoupledArrays      rods of every kind, and where its memory begins  (coupled_arrays.py)
-    CoupledState --put--> joints, carried rows --states--> CoupledState                           (coupled_rows.py)
-    CardState --CoupledWalk--> the wind, three walks a step, poses              (walk.py, shaders/multibody*.wgsl)
+    RungArrays --coupled_arrays--> CoupledArrays  rods of coupled rungs, where memory begins (coupled_arrays.py)
+    CoupledState --put--> joints, carried rows --states--> CoupledState                          (coupled_rows.py)
+    CardState --CoupledWalk--> changes of level, the wind, three walks a step, poses  (walk.py, shaders/multibody*.wgsl)
 
-`CoupledSimulation` in simulation.py is a ``GpuSimulation`` whose links are coupled: wind, posing and drawing are those
-of springs/, and joints lie where they lie there.
+`CoupledSimulation` in simulation.py is a ``GpuSimulation`` some rungs of which are coupled: levels, wind, posing and
+drawing are those of springs/, joints and groups lie where they lie there, and the other rungs are stepped as there.
 """

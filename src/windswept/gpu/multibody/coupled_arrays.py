@@ -1,4 +1,4 @@
-"""coupled_arrays: what the card needs to couple the links of every kind."""
+"""coupled_arrays: what the card needs to couple the links of a level."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from windswept.errors import GraphicsError
-from windswept.gpu.layouts import NONE, ROW
+from windswept.gpu.layouts import NONE
 from windswept.gpu.multibody import layouts
 from windswept.gpu.springs.kinds import GrownKind
+from windswept.gpu.springs.room import block_size
 from windswept.gpu.springs.rows import Rows
-from windswept.motion import Model
+from windswept.gpu.springs.rung_arrays import RungArrays
+from windswept.motion import Level, Model
 from windswept.motion.multibody.constants import (
     AXIS_1,
     AXIS_2,
@@ -28,7 +29,7 @@ from windswept.motion.multibody.constants import (
     STIFFNESS_1,
     STIFFNESS_2,
     forces_at,
-    pack_multibody,
+    pack_level,
     warped_step,
 )
 from windswept.plants.plant import Ints
@@ -36,63 +37,52 @@ from windswept.plants.plant import Ints
 
 @dataclass(frozen=True, slots=True)
 class CoupledArrays:
-    """Constants of K kinds whose links are coupled, and the memory that they move in."""
+    """Constants of the rungs whose links are coupled, of R in all, and the memory that they move in."""
 
     rods: Rows
-    """``ROD``, kind after kind."""
+    """``ROD``, rung after rung."""
     coupled: Rows
-    """(K,) ``COUPLED``"""
+    """(R,) ``COUPLED``; zeros where links are not."""
     carried_rows: int
-    """Rows of ``vec4f`` that all kinds together need for carried velocities, records and slots."""
+    """Rows of ``vec4f`` that all rungs together need for carried velocities, records and slots."""
     record_rows: int
     slot_rows: int
 
 
-def coupled_arrays(kinds: list[GrownKind], rungs: Rows, limit: int) -> CoupledArrays:
+def coupled_arrays(kinds: list[GrownKind], arrays: RungArrays) -> CoupledArrays:
     """Brings the multibody constants of kinds into the card's layouts.
 
     Args:
-        kinds: what is simulated, all at its finest level.
-        rungs: (K,) ``RUNG`` of their finest levels.
-        limit: bytes that a buffer may have.
-
-    Raises:
-        GraphicsError: the card has too little room.
+        kinds: what is simulated.
+        arrays: their levels on the card.
     """
-    room = rungs["room"][:, 3].astype(np.int64)
-    links = rungs["links"][:, 1].astype(np.int64)
-    depths = rungs["links"][:, 2].astype(np.int64) + 1
-    sizes = room * np.stack([layouts.CARRIED * links, layouts.RECORD * links, layouts.SLOT * depths])
-    needed = ROW.itemsize * int(sizes.sum(axis=1).max())
-    if needed > limit:
-        raise GraphicsError(
-            f"coupled links need {needed / 1e6:.2f} MB in one buffer and this adapter takes {limit / 1e6:.2f} MB: "
-            "place fewer plants, or simulate on the CPU"
-        )
-    coupled = np.zeros(len(kinds), layouts.COUPLED)
-    for row, kind in zip(coupled, kinds, strict=True):
-        step, ahead = warped_step(kind.model), forces_at(kind.model)
-        row["pace"] = step, ahead, step / ahead, 0.0
-    firsts = np.cumsum(sizes, axis=1) - sizes
-    coupled["rows"] = np.column_stack([np.cumsum(links) - links, *firsts])
-    carried, records, slots = (int(rows) for rows in sizes.sum(axis=1))
-    rods = [np.zeros(0, layouts.ROD), *(rod_rows(kind.model) for kind in kinds)]
-    return CoupledArrays(np.concatenate(rods), coupled, carried, records, slots)
+    models = [kinds[kind].model for kind in arrays.rungs["links"][:, 3]]
+    size, room = block_size(list(arrays.levels)), arrays.rungs["room"][:, 3].astype(np.int64)
+    rods, coupled = [np.zeros(0, layouts.ROD)], np.zeros(len(models), layouts.COUPLED)
+    for row, model, level in zip(coupled, models, arrays.levels, strict=True):
+        if level.coupled:
+            step, ahead = warped_step(model), forces_at(model)
+            row["pace"] = step, ahead, step / ahead, 0.0
+            row["rows"][0] = sum(map(len, rods))
+            rods.append(rod_rows(model, level))
+    sizes = room * np.stack([size.carried, size.records, size.slots])
+    coupled["rows"][:, 1:] = (np.cumsum(sizes, axis=1) - sizes).T
+    return CoupledArrays(np.concatenate(rods), coupled, *(int(rows) for rows in sizes.sum(axis=1)))
 
 
-def rod_rows(model: Model) -> Rows:
-    """(L,) ``ROD`` rows of a plant."""
-    c, skeleton = pack_multibody(model), model.skeleton
-    rows = np.zeros(model.link_count, layouts.ROD)
+def rod_rows(model: Model, level: Level) -> Rows:
+    """(A,) ``ROD`` rows of the active links of a level of a plant."""
+    c, up = pack_level(model, level), level.parent
+    rows = np.zeros(level.link_count, layouts.ROD)
     rows["axis_1"] = c[:, [AXIS_1, AXIS_1 + 1, AXIS_1 + 2, STIFFNESS_1]]
     rows["axis_2"] = c[:, [AXIS_2, AXIS_2 + 1, AXIS_2 + 2, STIFFNESS_2]]
-    above = c[np.maximum(skeleton.parent, 0), DIRECTION : DIRECTION + 3]
+    above = c[np.maximum(up, 0), DIRECTION : DIRECTION + 3]
     rows["foot"] = np.column_stack([c[:, REACH, None] * above, c[:, LEVER]])
     rows["leaf_1"] = np.column_stack([c[:, DRAG_LEAF : DRAG_LEAF + 3], c[:, DRAG_WOOD]])
     rows["leaf_2"] = np.column_stack([c[:, DRAG_LEAF + 3 : DRAG_LEAF + 6], c[:, LAG]])
-    rows["mass"][:, :3] = c[:, [MASS, MOMENT, INERTIA]]
-    parent = np.where(skeleton.parent < 0, NONE, skeleton.parent.astype(np.int64))
-    rows["rows"] = np.column_stack([parent, model.link_probe, skeleton.depth, ways(skeleton.parent)])
+    rows["mass"] = np.column_stack([c[:, [MASS, MOMENT, INERTIA]], level.group_start[2:]])
+    parent = np.where(up < 0, NONE, up.astype(np.int64))
+    rows["rows"] = np.column_stack([parent, level.probe, level.depth, ways(up)])
     return rows
 
 

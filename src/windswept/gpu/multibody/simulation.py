@@ -1,4 +1,4 @@
-"""CoupledSimulation: a scene in motion on the card with the links of every plant coupled."""
+"""CoupledSimulation: a scene in motion on the card with the links of plants coupled."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import Any
 
 from windswept.gpu import layouts
 from windswept.gpu.buffers import UNIFORM, filled, room, table
-from windswept.gpu.device import shared_device
 from windswept.gpu.failures import card_errors
 from windswept.gpu.multibody.coupled_arrays import coupled_arrays
 from windswept.gpu.multibody.coupled_rows import card_rows, state_of_rows
@@ -23,32 +22,43 @@ from windswept.scene.scene import Scene
 
 
 class CoupledSimulation(GpuSimulation):
-    """Runs a scene on the card, every placement at level 0 by `multibody`; otherwise as ``GpuSimulation``.
+    """Runs a scene on the card as ``GpuSimulation`` does, with levels whose links are coupled.
 
     Args:
         scene: what stands where, in which wind.
-        kinds: its plants, grown and compiled; their ladders are not used.
+        kinds: its plants, grown and compiled; their ladders say which levels are coupled, and where there is none, all
+            links are.
+        pixels: error that may be seen, at ``picture_height``.
+        picture_height: of the picture, pixels.
         room: bytes that a buffer may have; None for what the adapter takes.
         beds: its underbrush, planted.
+        aspect: width of the picture over its height.
 
     Raises:
         GraphicsError: no adapter, or one with too little memory.
     """
 
     def __init__(
-        self, scene: Scene, kinds: list[GrownKind], room: int | None = None, beds: tuple[Bed, ...] = ()
+        self,
+        scene: Scene,
+        kinds: list[GrownKind],
+        pixels: float = 1.0,
+        picture_height: int = 720,
+        room: int | None = None,
+        beds: tuple[Bed, ...] = (),
+        aspect: float = 16.0 / 9.0,
     ) -> None:
-        limit = shared_device().limits["max-storage-buffer-binding-size"]
-        self._room = limit if room is None else min(room, limit)
-        super().__init__(scene, [replace(kind, ladder=None) for kind in kinds], room=self._room, beds=beds)
+        coupled = [replace(kind, multibody=True) for kind in kinds]
+        super().__init__(scene, coupled, pixels, picture_height, room, beds, aspect)
         # Every walk of a step is a dispatch of its own.
         self.steps_at_once = 1
 
     @card_errors("taking motion over")
     def put(self, states: list[CoupledState]) -> None:
-        """Lets every placement go on from a state of `multibody`, kind by kind."""
+        """Lets every placement go on from a state of `multibody`, kind by kind, where all stand at level 0."""
         queue, resources = self._device.queue, self.card.resources
-        for rung, row, state in zip(self._arrays.rungs, self._coupled, states, strict=True):
+        for first, state in zip(self._finest, states, strict=True):
+            rung, row = self._arrays.rungs[first], self._coupled[first]
             slots = int(rung["room"][3])
             joints, carried = card_rows(state, min(slots, layouts.LANES), slots)
             queue.write_buffer(resources["state"], int(rung["room"][0]) * layouts.ROW.itemsize, joints)
@@ -56,15 +66,21 @@ class CoupledSimulation(GpuSimulation):
 
     @property
     def states(self) -> list[CoupledState]:
-        """State of every kind, read back."""
-        return [self._state(k, kind.placements.count) for k, kind in enumerate(self.kinds)]
+        """State of every kind, read back, where all stand at level 0."""
+        counts = [kind.placements.count for kind in self.kinds]
+        return [self._state(rung, count) for rung, count in zip(self._finest, counts, strict=True)]
 
-    def _state(self, kind: int, placements: int) -> CoupledState:
-        """State of one kind, read back."""
-        rung = self._arrays.rungs[kind]
+    @property
+    def _finest(self) -> list[int]:
+        """Rung of every kind's level 0."""
+        return [int(first) for first in self._arrays.kinds["ladder"][:, 0]]
+
+    def _state(self, number: int, placements: int) -> CoupledState:
+        """State of a rung without groups, read back."""
+        rung = self._arrays.rungs[number]
         first, slots = int(rung["room"][0]), int(rung["room"][3])
         links, lanes = int(rung["links"][1]), min(slots, layouts.LANES)
-        carried_first = int(self._coupled[kind]["rows"][1])
+        carried_first = int(self._coupled[number]["rows"][1])
 
         def rows(name: str, start: int, count: int) -> Floats:
             return self.card.read(name, "<f4", 4 * start, 4 * count)
@@ -75,12 +91,14 @@ class CoupledSimulation(GpuSimulation):
 
     def _new_walk(self) -> Walk:
         """The kernels, once what coupled links need has its place on the card."""
-        arrays = coupled_arrays(self.kinds, self._arrays.rungs, self._room)
+        arrays = coupled_arrays(self.kinds, self._arrays)
         self._coupled = arrays.coupled
         device: Any = self._device
         self.card.resources |= {
             "rods": filled(device, arrays.rods),
-            "coupled": filled(device, table(arrays.coupled, layouts.KIND_LIMIT, "kinds of plants"), UNIFORM),
+            "coupled": filled(
+                device, table(arrays.coupled, layouts.RUNG_LIMIT, "simulation levels"), UNIFORM
+            ),
             "carried": room(device, layouts.ROW, arrays.carried_rows),
             "records": room(device, layouts.ROW, arrays.record_rows),
             "slots": room(device, layouts.ROW, arrays.slot_rows),

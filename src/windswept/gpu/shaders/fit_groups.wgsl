@@ -132,8 +132,9 @@ fn fit_groups(
         let pressure = fitted(lane, row, carrier, kind, first);
         let place = column_of(rung, motion.at.y) + (rung.links.y + 2u * group.y) * stride_of(rung);
         if lane == 0u {
-            state[place] = rung.air.w * vec4f(pressure[0], 0.0);
-            state[place + stride_of(rung)] = rung.air.w * vec4f(pressure[1], 0.0);
+            let moves = select(1.0, 0.0, rung.air.w == STILL);
+            state[place] = moves * vec4f(pressure[0], 0.0);
+            state[place + stride_of(rung)] = moves * vec4f(pressure[1], 0.0);
         }
     }
 }

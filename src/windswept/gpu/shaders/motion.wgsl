@@ -12,7 +12,7 @@ struct Rung {
     groups: vec4u,      // first group row; groups; groups on the ground; place on the ladder, 0 = finest
     probes: vec4u,      // first probe; probes; first listener; first member
     room: vec4u,        // first row of state, stack and wind; placements that there is room for
-    air: vec4f,         // speed at which leaves fold, m/s; half the exponent of that; largest error so far, m; moves or 0
+    air: vec4f,         // speed at which leaves fold, m/s; half the exponent of that; largest error so far, m; what moves it
 }
 
 // Listeners are rows of vec4u, one for each joint of the plant at each rung: the active link that the joint is, or NONE;
@@ -107,6 +107,14 @@ fn stride_of(rung: Rung) -> u32 {
     return min(rung.room.w, LANES);
 }
 
+fn is_coupled(rung: Rung) -> bool {
+    return rung.air.w == MULTIBODY;
+}
+
 const LANES = 64u;
 const NONE = 0xffffffffu;
+const STILL = 0.0;       // what moves the plants of a rung
+const SPRINGS = 1.0;
+const MULTIBODY = 2.0;
+const TINY = 1e-30;      // roots of squares have a slope at rest too
 const MAX_ANGLE = 1.5;   // no joint is pulled further, rad

@@ -3,7 +3,7 @@
 fn advance(column: Column) {
     let pace = column.pace;
     let stride = column.stride;
-    var here = Moving(vec4f(0.0, 0.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0));
+    var here = GROUND;
     for (var i = 0u; i < column.links; i++) {
         let rod = rods[column.rods + i];
         let record = record_of(column, i);

@@ -41,10 +41,12 @@ struct Moving {
     along: vec3f,   // of the joint
 }
 
+const GROUND = Moving(vec4f(0.0, 0.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0));
+
 // Of the link that a link hangs on, from what is known of the link before it.
 fn moving_above(rod: Rod, before: Moving, column: Column) -> Moving {
     if (rod.rows.w & FOLLOWS) != 0u { return before; }
-    if rod.rows.x == NONE { return Moving(vec4f(0.0, 0.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0)); }
+    if rod.rows.x == NONE { return GROUND; }
     let row = slot_of(column, rod.rows.z - 1u);
     let turn = slots[row + column.stride];
     let along = slots[row + 2u * column.stride];
@@ -63,4 +65,19 @@ fn keep_moving(rod: Rod, here: Moving, column: Column) {
 // Motion of a joint that is carried by a link in motion.
 fn carried_along(rod: Rod, above: Moving) -> vec3f {
     return above.along + cross(above.turn, rotate(above.rotation, rod.foot.xyz));
+}
+
+// A link as its joint carries it.
+struct Swung {
+    moving: Moving,
+    direction: vec3f,
+}
+
+// Where a link is so far ahead, and how it moves there at the rates of the joints, from its carrier's motion.
+fn swung(rod: Rod, above: Moving, joint: vec4f, ahead: f32) -> Swung {
+    let angles = angles_ahead(joint, ahead);
+    let rotation = turned(above.rotation, rod, angles);
+    let axes = joint_in_world(rotation, rod, angles);
+    let turn = above.turn + joint.y * axes.axis_1 + joint.w * axes.axis_2;
+    return Swung(Moving(rotation, turn, carried_along(rod, above)), axes.direction);
 }

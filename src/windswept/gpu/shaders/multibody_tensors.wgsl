@@ -6,11 +6,7 @@ struct Tensor {
 }
 
 fn times(t: Tensor, v: vec3f) -> vec3f {
-    return vec3f(
-        t.diagonal.x * v.x + t.aside.x * v.y + t.aside.y * v.z,
-        t.aside.x * v.x + t.diagonal.y * v.y + t.aside.z * v.z,
-        t.aside.y * v.x + t.aside.z * v.y + t.diagonal.z * v.z,
-    );
+    return tensor_times(t.diagonal, t.aside, v);
 }
 
 fn added(a: Tensor, b: Tensor) -> Tensor {

@@ -1,5 +1,5 @@
-// `springs` on the card: motion/springs.py and motion/groups.py for LANES placements a workgroup, one a lane.
-// Set: motion + rotation + springs.
+// `springs` on the card: motion/springs.py for LANES placements a workgroup, one a lane. Set: motion + rotation + groups
+// + springs.
 //
 // The CPU walks root to leaf and back. One walk is enough: links stand depth first, so when a link's last descendant is
 // done, the force and moment beyond its joint are complete, and the joint takes its step at once. Only the links
@@ -20,8 +20,6 @@ override FIRST: u32 = 0u;
 override MOST: u32 = 0xffffffffu;
 
 const REST_THRESHOLD = 1e-9;
-const GROUP_REST_THRESHOLD = 1e-7;
-const TINY = 1e-30;
 const RECORD = 5u;   // rows of a link in the stack
 const MODES = 4u;    // MODE_COUNT of motion/modal.py
 const MODE_RECORD = 5u;   // rows of the modes in the stack, beyond all links
@@ -71,23 +69,6 @@ fn take_up(row: u32, stride: u32) -> Body {
     return Body(stack[row], place.xyz, spin, velocity.xyz, force.xyz, stack[row + 4u * stride].xyz);
 }
 
-fn tensor_times(diagonal: vec3f, aside: vec3f, v: vec3f) -> vec3f {
-    return vec3f(
-        v.x * diagonal.x + v.y * aside.x + v.z * aside.y,
-        v.x * aside.x + v.y * diagonal.y + v.z * aside.z,
-        v.x * aside.y + v.y * aside.z + v.z * diagonal.z,
-    );
-}
-
-fn settled(value: vec3f, threshold: f32) -> vec3f {
-    return select(value, vec3f(0.0), abs(value) < vec3f(threshold));
-}
-
-fn air_at(column: Column, probe: u32, late: f32) -> vec4f {
-    let row = column.wind + 2u * probe * column.stride;
-    return mix(wind[row], wind[row + column.stride], late);
-}
-
 fn drag_force(link: Link, air: vec4f, velocity: vec3f, vector: vec3f) -> vec3f {
     let speed = sqrt(dot(air.xyz - velocity, air.xyz - velocity) + TINY);
     let u = air.xyz - velocity / (1.0 + speed * link.leaf_1.w);
@@ -96,30 +77,15 @@ fn drag_force(link: Link, air: vec4f, velocity: vec3f, vector: vec3f) -> vec3f {
     return speed * (air.w * leaf + link.leaf_2.w * across);
 }
 
-// Steps a group and adds its force and torque to the link that carries it.
-fn swing_group(group: Group, row: u32, stride: u32, air: vec4f, carrier: Body) -> Body {
-    let u = state[row].xyz;
-    let rate = state[row + stride].xyz;
-    let arm = rotate(carrier.rotation, group.centre.xyz);
-    let swayed = vec3f(dot(group.sway_x.xyz, rate), dot(group.sway_y.xyz, rate), dot(group.sway_z.xyz, rate));
-    let velocity = carrier.velocity + cross(carrier.spin, arm) + rotate(carrier.rotation, swayed);
-    let speed = sqrt(dot(air.xyz - velocity, air.xyz - velocity) + TINY);
-    let relative = air.xyz - velocity / (1.0 + speed * group.leaf_2.w);
-    let leaf = speed * air.w;
-    let pressure = relative * (leaf * group.centre.w + speed * group.leaf_1.w);
-    let goal = rotate_back(carrier.rotation, pressure);
-    let y = u - goal;
-    let swung = settled(goal + group.swing.x * y + group.swing.y * rate, GROUP_REST_THRESHOLD);
-    state[row] = vec4f(swung, 0.0);
-    state[row + stride] = vec4f(settled(group.swing.z * y + group.swing.w * rate, GROUP_REST_THRESHOLD), 0.0);
-    let force = leaf * tensor_times(group.leaf_1.xyz, group.leaf_2.xyz, relative)
-        + speed * tensor_times(group.wood_1.xyz, group.wood_2.xyz, relative);
-    let couple = vec3f(
-        dot(group.couple_x.xyz, pressure), dot(group.couple_y.xyz, pressure), dot(group.couple_z.xyz, pressure),
-    );
-    var loaded = carrier;
-    loaded.force += force;
-    loaded.torque += cross(carrier.place + arm, force) + couple;
+// A link with the force and torque of a group that hangs on it; `number` is the group's in its rung.
+fn with_group(body: Body, rung: Rung, number: u32, column: Column, late: f32) -> Body {
+    let group = groups[rung.groups.x + number];
+    let row = column.groups + 2u * number * column.stride;
+    let air = air_at(column.wind, column.stride, group.rows.x, late);
+    let push = swing_group(group, row, column.stride, air, body.rotation, body.spin, body.velocity);
+    var loaded = body;
+    loaded.force += push.force;
+    loaded.torque += cross(body.place + push.arm, push.force) + push.couple;
     return loaded;
 }
 
@@ -216,10 +182,7 @@ fn walk(rung: Rung, mine: vec2u, column: Column, late: f32) {
     var top = column.stack;
     if FIRST == 0u {
         body.rotation = vec4f(0.0, 0.0, 0.0, 1.0);
-        for (; group < rung.groups.z; group++) {
-            let row = groups[rung.groups.x + group];
-            body = swing_group(row, column.groups + 2u * group * stride, stride, air_at(column, row.rows.x, late), body);
-        }
+        for (; group < rung.groups.z; group++) { body = with_group(body, rung, group, column, late); }
     } else {
         top += u32(links[rung.links.x + FIRST].more.w) * RECORD * stride;
         body = take_up(top, stride);
@@ -234,11 +197,9 @@ fn walk(rung: Rung, mine: vec2u, column: Column, late: f32) {
         let link = links[rung.links.x + i];
         lay_down(top, stride, body);
         top += RECORD * stride;
-        body = pose_and_drag(link, state[column.state + i * stride], body, air_at(column, link.rows.y, late));
-        for (; group < link.rows.z; group++) {
-            let row = groups[rung.groups.x + group];
-            body = swing_group(row, column.groups + 2u * group * stride, stride, air_at(column, row.rows.x, late), body);
-        }
+        let air = air_at(column.wind, stride, link.rows.y, late);
+        body = pose_and_drag(link, state[column.state + i * stride], body, air);
+        for (; group < link.rows.z; group++) { body = with_group(body, rung, group, column, late); }
         var done = i;
         for (var k = 0u; k < link.rows.w; k++) {
             let ended = links[rung.links.x + done];
@@ -271,6 +232,7 @@ fn step_block(
         let block = blocks[1u + b];
         if lane >= block.z { continue; }
         let rung = rungs[block.x];
+        if is_coupled(rung) { continue; }
         if FIRST > 0u && FIRST >= rung.links.y { continue; }
         let stride = stride_of(rung);
         let joints = rung.room.x + block.y * (rung.links.y + 2u * rung.groups.y) * stride + lane;

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,11 +23,15 @@ class GrownKind:
     ladder: Ladder | None
     """None where every placement is simulated at level 0."""
     placements: Placements
+    multibody: bool = False
+    """Whether `multibody` moves those at level 0; a ladder says so itself."""
 
     @property
     def levels(self) -> tuple[Level, ...]:
         """Finest first."""
-        return (finest_level(self.model),) if self.ladder is None else self.ladder.levels
+        if self.ladder is not None:
+            return self.ladder.levels
+        return (replace(finest_level(self.model), coupled=self.multibody),)
 
     @property
     def radius(self) -> float:
@@ -36,7 +40,10 @@ class GrownKind:
 
 
 def grown_kinds(
-    scene: Scene, levels: bool = False, say: Callable[[str], None] = lambda line: None
+    scene: Scene,
+    levels: bool = False,
+    say: Callable[[str], None] = lambda line: None,
+    multibody: bool = False,
 ) -> list[GrownKind]:
     """Grows and compiles the kinds of a scene.
 
@@ -44,10 +51,12 @@ def grown_kinds(
         scene: what stands where.
         levels: whether plants far from the camera are simulated at coarser levels.
         say: told of each plant that is grown.
+        multibody: whether `multibody` moves those at level 0; with levels it is the first of them, and errors are
+            against it.
     """
     kinds = []
     for plant, placements in zip(grow_kinds(scene, say), scene.placements, strict=True):
         model = build_model(plant)
-        ladder = measured_ladder(build_ladder(simplify(model))) if levels else None
-        kinds.append(GrownKind(plant, model, ladder, placements))
+        ladder = measured_ladder(build_ladder(simplify(model), multibody)) if levels else None
+        kinds.append(GrownKind(plant, model, ladder, placements, multibody))
     return kinds

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from windswept.errors import GraphicsError
 from windswept.gpu import layouts
+from windswept.gpu.multibody import layouts as coupled
 from windswept.motion import Level
 
 Counts = NDArray[np.int64]
@@ -35,23 +36,36 @@ class BlockSize:
     state: Counts
     """(R,) one a link, two a group."""
     stack: Counts
-    """(R,) the links between the root and the walk's place, and the modes."""
+    """(R,) of `springs`: the links between the root and the walk's place, and the modes."""
     wind: Counts
     """(R,) two a probe: both ends of an interval."""
+    carried: Counts
+    """(R,) of `multibody`: what lasts of the links beyond their joints."""
+    records: Counts
+    """(R,) of `multibody`: of the links within a step."""
+    slots: Counts
+    """(R,) of `multibody`: of the depths within a walk."""
 
     @property
     def columns(self) -> Counts:
-        """(R, 3) state, stack, wind."""
-        return np.stack([self.state, self.stack, self.wind], axis=1)
+        """(R, 6) in the order above."""
+        return np.stack([self.state, self.stack, self.wind, self.carried, self.records, self.slots], axis=1)
 
 
 def block_size(levels: list[Level]) -> BlockSize:
     """Sizes of the blocks of some levels."""
-    depth = [int(level.depth.max(initial=0)) for level in levels]
+    links = np.array([level.link_count for level in levels])
+    groups = np.array([level.group_count for level in levels])
+    probes = np.array([len(level.probe_position) for level in levels])
+    depths = np.array([int(level.depth.max(initial=0)) for level in levels]) + 1
+    is_coupled = np.array([level.coupled for level in levels])
     return BlockSize(
-        np.array([level.link_count + 2 * level.group_count for level in levels]),
-        RECORD * (np.array(depth) + 1) + MODE_RECORD,
-        np.array([2 * len(level.probe_position) for level in levels]),
+        state=links + 2 * groups,
+        stack=np.where(is_coupled, 0, RECORD * depths + MODE_RECORD),
+        wind=2 * probes,
+        carried=is_coupled * coupled.CARRIED * links,
+        records=is_coupled * coupled.RECORD * links,
+        slots=is_coupled * coupled.SLOT * depths,
     )
 
 

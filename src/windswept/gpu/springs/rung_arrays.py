@@ -55,6 +55,11 @@ class RungArrays:
     """Placements that may join a rung at once, and all rungs together."""
     joins_together: int
 
+    @property
+    def coupled(self) -> NDArray[np.bool_]:
+        """(R,) whether `multibody` moves the plants of a rung."""
+        return np.array([level.coupled for level in self.levels], bool)
+
 
 def rung_arrays(kinds: list[GrownKind], limit: int) -> RungArrays:
     """Brings kinds into the card's layouts.
@@ -147,14 +152,22 @@ def _rung_rows(kinds: list[GrownKind], levels: list[Level], owner: NDArray[np.in
     rows["probes"] = np.stack(
         [_starts(probe_count), probe_count, _starts(joint_count), _starts(room)], axis=1
     )
-    firsts = [_starts(room * column) for column in size.columns.T]
+    firsts = [_starts(room * column) for column in (size.state, size.stack, size.wind)]
     rows["room"] = np.stack([*firsts, room], axis=1)
     for row, level in zip(rows, levels, strict=True):
         row["air"][:2] = level.material.reconfiguration_speed, 0.5 * level.material.reconfiguration
     errors = [np.maximum.accumulate(kind.ladder.error) if kind.ladder else np.zeros(1) for kind in kinds]
     rows["air"][:, 2] = np.concatenate(errors)
-    rows["air"][:, 3] = [level.group_constants.any() for level in levels]
+    rows["air"][:, 3] = [_moved_by(level) for level in levels]
     return rows
+
+
+def _moved_by(level: Level) -> int:
+    """STILL, SPRINGS or MULTIBODY."""
+    if level.coupled:
+        return layouts.MULTIBODY
+    moves = level.link_count or level.group_constants.any()
+    return layouts.SPRINGS if moves else layouts.STILL
 
 
 def _kind_rows(kinds: list[GrownKind], rungs: Rows) -> Rows:

@@ -45,7 +45,7 @@ class GpuSimulation:
 
     Args:
         scene: what stands where, in which wind.
-        kinds: its plants, grown and compiled.
+        kinds: its plants, grown and compiled; of levels with coupled links, which need ``CoupledSimulation``, none.
         pixels: error that may be seen, at ``picture_height``.
         picture_height: of the picture, pixels.
         room: bytes that a buffer may have; None for what the adapter takes.
@@ -199,6 +199,7 @@ class GpuSimulation:
 
     def _new_walk(self) -> Walk:
         """The kernels, over what is on the card."""
+        assert not self._arrays.coupled.any()
         return Walk(self._device, self.card, len(self._arrays.rungs), len(self._arrays.rooted))
 
     def _begin_interval(self) -> list[Stage]:

@@ -41,15 +41,10 @@ class Walk:
         self._wish = kernel("choose", "wish", {"REGISTER": WIDTH})
         self._rank = kernel("choose", "rank", {"REGISTER": WIDTH})
         self._give = kernel("choose", "give", {"REGISTER": WIDTH})
-        arrays = card.arrays
-        noted: dict[str, float] = {"LONGEST": arrays.longest}
-        self._compact = kernel("members", "compact", {"MOST_JOINS": arrays.joins_each})
+        self._compact = kernel("members", "compact", {"MOST_JOINS": card.arrays.joins_each})
         self._settle = kernel("members", "settle")
         self._plan = kernel("plan", "plan")
-        self._shift = kernel("members", "shift")
-        self._shift_state = kernel("shift_state", "shift_state")
-        self._join = kernel("carry_over", "join", noted)
-        self._fit_groups = kernel("fit_groups", "fit_groups", noted)
+        self._movers = self._new_movers()
         self._sample = kernel("wind", "sample")
         self._crown = kernel("crown", "crown_speed")
         self._steppers = self._new_steppers()
@@ -57,11 +52,26 @@ class Walk:
 
     def _new_steppers(self) -> list[Kernel]:
         """Kernels that step a block, one after the other: of large plants, each walks a share of the links."""
-        rungs, resources = self._card.arrays.rungs, self._card.resources
+        arrays, resources = self._card.arrays, self._card.resources
+        rungs = arrays.rungs[~arrays.coupled]
         share = links_in_turns(self._device, rungs, TURNS_PER_LINK)
         return [
             Kernel(self._device, "springs", "step_block", resources, {"FIRST": first, "MOST": share})
             for first in range(0, int(rungs["links"][:, 1].max(initial=1)), share)
+        ]
+
+    def _new_movers(self) -> list[tuple[Kernel, int]]:
+        """Kernels that take along what moves with placements that change slot or level, and what dispatches each."""
+        noted: dict[str, float] = {"LONGEST": self._card.arrays.longest}
+        movers: list[tuple[str, str, dict[str, float], int]] = [
+            ("members", "shift", {}, SHIFT),
+            ("shift_state", "shift_state", {}, SHIFT),
+            ("carry_over", "join", noted, JOIN),
+            ("fit_groups", "fit_groups", noted, JOIN_GROUPS),
+        ]
+        return [
+            (Kernel(self._device, module, entry, self._card.resources, constants), row)
+            for module, entry, constants, row in movers
         ]
 
     def rebind_wind(self) -> None:
@@ -85,10 +95,8 @@ class Walk:
         self._compact.record(compute_pass, self._rungs)
         self._settle.record(compute_pass, self._crowd)
         self._plan.record(compute_pass, 1)
-        self._shift.record_planned(compute_pass, planned, SHIFT)
-        self._shift_state.record_planned(compute_pass, planned, SHIFT)
-        self._join.record_planned(compute_pass, planned, JOIN)
-        self._fit_groups.record_planned(compute_pass, planned, JOIN_GROUPS)
+        for mover, row in self._movers:
+            mover.record_planned(compute_pass, planned, row)
         compute_pass.end()
 
     def sample_wind(self, encoder: Any) -> None:
