@@ -12,6 +12,8 @@ from windswept.gpu.multibody.layouts import COUPLED
 from windswept.gpu.plant_drawing import LEAF_BATCH, STEM_BATCH
 from windswept.gpu.springs import room
 from windswept.gpu.wiring import SHADER_SETS, shader_module, shader_text
+from windswept.levels.carry_over import CLOSE, MOST_ROUNDS, REGULAR
+from windswept.motion.groups import REST_THRESHOLD
 from windswept.motion.modal import MODE_COUNT
 from windswept.motion.multibody import constants
 from windswept.motion.shapes import MAX_ANGLE
@@ -128,6 +130,24 @@ def test_constants_of_the_walk_agree_with_the_shader(line):
 def test_constants_of_coupled_links_agree_with_the_shader(name):
     line = f"const {name} = {getattr(constants, name)};"
     assert line.replace("e-09", "e-9") in shader_source("multibody_types")
+
+
+@pytest.mark.parametrize("name", ["CARRIED", "RECORD", "SLOT"])
+def test_rows_of_coupled_links_agree_with_the_shader(name):
+    assert f"const {name} = {getattr(layouts, name + '_ROWS')}u;" in shader_source("multibody_types")
+
+
+@pytest.mark.parametrize(
+    ("shader", "line"),
+    [
+        ("fit_groups", f"const MOST_ROUNDS = {MOST_ROUNDS}u;"),
+        ("fit_groups", f"const REGULAR = {REGULAR};"),
+        ("fit_groups", f"const CLOSE = {CLOSE};"),
+        ("groups", f"const GROUP_REST_THRESHOLD = {REST_THRESHOLD};"),
+    ],
+)
+def test_constants_of_groups_agree_with_the_shader(shader, line):
+    assert line.replace("e-0", "e-") in shader_source(shader)
 
 
 TABLE_LENGTHS = {

@@ -60,7 +60,7 @@ def parse_size(_context: object, _parameter: object, text: str) -> tuple[int, in
     is_flag=True,
     help="Simulate on the graphics card; on the CPU where it has too little memory or is lost.",
 )
-@click.option("--multibody", is_flag=True, help="Move plants near the camera with all their links coupled.")
+@click.option("--multibody", is_flag=True, help="Couple all links of plants near the camera.")
 @click.option("--json", "as_json", is_flag=True, help="Report as one JSON object.")
 def command(
     source: str,

@@ -27,7 +27,7 @@ from windswept.scene.simulation import Simulation
     is_flag=True,
     help="Simulate on the graphics card; on the CPU where it has too little memory, in a new window if it is lost.",
 )
-@click.option("--multibody", is_flag=True, help="Move plants near the camera with all their links coupled.")
+@click.option("--multibody", is_flag=True, help="Couple all links of plants near the camera.")
 def command(source: str, seed: int | None, level_colours: bool, gpu: bool, multibody: bool) -> None:
     """Open a live window on SCENE: drag to orbit, scroll to zoom, sliders for the wind, pause.
 

@@ -132,6 +132,8 @@ WORD = np.dtype("<u4")
 
 LANES = 64
 """Placements in one block: LANES of ``motion.wgsl``."""
+CARRIED_ROWS, RECORD_ROWS, SLOT_ROWS = 2, 5, 8
+"""Of a coupled link that last, of one within a step, and of a depth within a walk; see ``multibody_types.wgsl``."""
 STILL, SPRINGS, MULTIBODY = 0, 1, 2
 """What moves the plants of a rung: as in ``motion.wgsl``."""
 KIND_LIMIT, RUNG_LIMIT = 512, 800

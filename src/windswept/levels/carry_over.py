@@ -17,6 +17,8 @@ REGULAR = 2e-5
 """Relative weight that pulls a group's pressure to zero along directions that its joints hardly feel."""
 MOST_ROUNDS = 12
 """Of Gauss and Newton's method for a group's pressure; where shapes are nearly linear, three are enough."""
+CLOSE = 1e-5
+"""Change of a pressure over the greatest that shapes hold for, at which no further round is taken."""
 MOMENT = 1e-3
 """Time over which the pressure's rate is followed to find the joints' velocities, s."""
 
@@ -92,7 +94,7 @@ def _pressures(hierarchy: Hierarchy, angles: Floats, velocities: Floats, level: 
         change = np.linalg.solve(normal, right.transpose(0, 2, 1))
         pressure[:, :3] += change[..., 0]
         pressure[:, 3:] = change[..., 1]
-        if np.abs(change[..., 0]).max() < 1e-5 * level.shape_limit:
+        if np.abs(change[..., 0]).max() < CLOSE * level.shape_limit:
             break
     return pressure.astype(np.float32)
 

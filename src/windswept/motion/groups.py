@@ -25,8 +25,9 @@ from windswept.motion.rotation import add_scaled, cross, dot, rotate, rotate_bac
 _F = np.float32
 _W = np.uintp(WIDTH)
 _TINY = _F(1e-30)
-_THRESHOLD: Any = _F(1e-7)
-"""Pressures and rates below this, in (m/s)^2, are put to rest."""
+REST_THRESHOLD = 1e-7
+"""Pressures and their rates below this, in (m/s)^2 and (m/s)^2/s, are put to rest."""
+_THRESHOLD: Any = _F(REST_THRESHOLD)
 
 
 @njit(fastmath=FAST_MATH, forceinline=True)

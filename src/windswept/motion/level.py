@@ -76,8 +76,13 @@ class Level:
         return len(self.group_probe)
 
     @property
+    def moves(self) -> bool:
+        """Whether wind moves anything of it: a plant that stands still is one group under no pressure."""
+        return bool(self.link_count or self.group_constants.any())
+
+    @property
     def groups_swing(self) -> bool:
-        """Whether it has groups with inertia: `bend` has none, nor has a plant that stands still."""
+        """Whether it has groups with inertia: a plant that follows the wind's pressure has none, nor one that stands still."""
         return bool(self.group_constants[:, GROUP_STEP : GROUP_STEP + 4].any())
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from windswept.gpu.device import adapter_summary, is_software, shared_device
-from windswept.gpu.multibody.layouts import CARRIED, RECORD
+from windswept.gpu.layouts import CARRIED_ROWS, RECORD_ROWS
 from windswept.gpu.multibody.simulation import CoupledSimulation
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.studies.bench_gpu_springs import card_seconds_per_step, grove
@@ -59,4 +59,4 @@ def bytes_per_link_step() -> float:
     Its joint is read by all three walks and written by one, what it carries is read and written by two; its record is
     written and read, and again with the joint's answer; the wind at both ends of the interval is read.
     """
-    return ROW * (4 + 4 * CARRIED + 4 * RECORD + 2)
+    return ROW * (4 + 4 * CARRIED_ROWS + 4 * RECORD_ROWS + 2)

@@ -87,8 +87,7 @@ def test_plants_pass_between_the_models_as_on_the_cpu(limp_trees, coupled_ladder
     links, merged, springs = (True, False), (True, True), (False, True)
     for one, other in ((links, merged), (merged, springs), (links, springs)):
         assert {(one, other), (other, one)} <= passed
-    # As among levels of springs (test_levels_on_card.py), of which there are fewer here.
-    assert (np.quantile(worst, (0.5, 0.95, 1.0)) < (2e-6, 1e-4, 2e-4)).all()
+    assert max(worst) < 2e-6
 
 
 def test_links_that_join_carry_what_their_joints_say(limp_trees, coupled_ladders):
@@ -120,7 +119,7 @@ def test_who_stays_keeps_what_its_links_carry(limp_trees, coupled_ladders):
     for _ in fly(simulation, card, rng.uniform(-100.0, 300.0, 12), seconds=0.3):
         check_seats(card)
         assert card.stepped_count == simulation.stepped_count
-        assert gaps(simulation, card).max() < 2e-4
+        assert gaps(simulation, card).max() < 1e-5
         before, at = at, card.card.read("motions", layouts.MOTION)["at"]
         stayed = coupled[at[:, 0]] & (at[:, 0] == before[:, 0])
         shifted += int((at[stayed, 1] != before[stayed, 1]).sum())

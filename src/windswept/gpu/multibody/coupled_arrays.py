@@ -66,7 +66,7 @@ def coupled_arrays(kinds: list[GrownKind], arrays: RungArrays) -> CoupledArrays:
             row["rows"][0] = sum(map(len, rods))
             rods.append(rod_rows(model, level))
     sizes = room * np.stack([size.carried, size.records, size.slots])
-    coupled["rows"][:, 1:] = (np.cumsum(sizes, axis=1) - sizes).T
+    coupled["rows"][:, 1:] = ((np.cumsum(sizes, axis=1) - sizes) * arrays.coupled).T
     return CoupledArrays(np.concatenate(rods), coupled, *(int(rows) for rows in sizes.sum(axis=1)))
 
 

@@ -21,5 +21,3 @@ COUPLED = np.dtype([("pace", *REALS), ("rows", *COUNTS)])
 
 TIP, FOLLOWS, FORKS, LATER = 1, 2, 4, 8
 """What the walks do at a link: TIP and its neighbours of ``multibody_types.wgsl``."""
-CARRIED, RECORD, SLOT = 2, 5, 8
-"""Rows of a link that last, of a link within a step, and of a depth within a walk."""

@@ -10,7 +10,6 @@ from windswept.gpu.buffers import UNIFORM, filled, room, table
 from windswept.gpu.failures import card_errors
 from windswept.gpu.multibody.coupled_arrays import coupled_arrays
 from windswept.gpu.multibody.coupled_rows import card_rows, state_of_rows
-from windswept.gpu.multibody.layouts import CARRIED
 from windswept.gpu.multibody.walk import CoupledWalk
 from windswept.gpu.springs.kinds import GrownKind
 from windswept.gpu.springs.simulation import GpuSimulation
@@ -86,7 +85,9 @@ class CoupledSimulation(GpuSimulation):
             return self.card.read(name, "<f4", 4 * start, 4 * count)
 
         joints = rows("state", first, slots * links).reshape(-1, links, lanes, 4)
-        carried = rows("carried", carried_first, CARRIED * slots * links).reshape(-1, links, 2, lanes, 4)
+        carried = rows("carried", carried_first, layouts.CARRIED_ROWS * slots * links).reshape(
+            -1, links, 2, lanes, 4
+        )
         return state_of_rows(joints, carried, placements, self.step_count)
 
     def _new_walk(self) -> Walk:

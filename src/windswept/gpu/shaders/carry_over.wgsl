@@ -46,7 +46,7 @@ fn join(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) sprea
         let after = rungs[motion.at.x];
         let kind = kinds[after.links.w];
         let first = 2u * k * LONGEST;
-        let column = column_of(before, motion.origin.y);
+        let column = state_row(before, motion.origin.y);
         for (var i = 0u; i < kind.joints.y; i++) {
             let link = links[kind.joints.x + i];
             let listener = listeners[before.probes.z + i];
@@ -57,7 +57,7 @@ fn join(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) sprea
             notes[first + 2u * i] = joint;
             notes[first + 2u * i + 1u] = multiply(q_parent, from_rotation_vector(turn));
             let active_link = listeners[after.probes.z + i].x;
-            if active_link != NONE { state[column_of(after, motion.at.y) + active_link * stride_of(after)] = joint; }
+            if active_link != NONE { state[state_row(after, motion.at.y) + active_link * stride_of(after)] = joint; }
         }
     }
 }

@@ -1,10 +1,5 @@
 // What turns a joint of the plant, whatever the level: its own oscillator, or its shape under its group's pressure.
-// motion/shapes.py is the same on the CPU.
-
-// First row of the state of a slot; a narrow block is the only one of its rung.
-fn column_of(rung: Rung, slot: u32) -> u32 {
-    return rung.room.x + slot / LANES * (rung.links.y + 2u * rung.groups.y) * LANES + slot % LANES;
-}
+// motion/shapes.py is the same on the CPU, but for `slope_of`, which it takes by differences (levels/carry_over.py).
 
 // Second-order terms of an angle, and their slope.
 fn second_order(square: vec3f, mixed: vec3f, u: vec3f) -> f32 {
@@ -26,7 +21,7 @@ fn shaped(shape: Shape, u: vec3f, limit: f32) -> vec2f {
     return clamp(angles, vec2f(-MAX_ANGLE), vec2f(MAX_ANGLE));
 }
 
-// How one angle changes with the pressure.
+// How one angle changes with the pressure, held as `shaped` holds it.
 fn slope_of(linear: vec3f, square: vec3f, mixed: vec3f, u: vec3f, limit: f32) -> vec3f {
     let length_2 = max(dot(u, u), limit * limit);
     let short = limit / sqrt(length_2);

@@ -119,7 +119,7 @@ fn settle(@builtin(global_invocation_id) id: vec3u) {
     motions[id.x] = motion;
 }
 
-// A workgroup takes the shift of one placement: members and slots; its state follows in carry_over.wgsl.
+// One invocation takes the shift of one placement: members and slots; its state follows in shift_state.wgsl.
 @compute @workgroup_size(64)
 fn shift(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) spread: vec3u) {
     for (var k = id.x; k < atomicLoad(&tally.shifts); k += 64u * spread.x) {

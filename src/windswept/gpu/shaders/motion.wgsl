@@ -107,6 +107,11 @@ fn stride_of(rung: Rung) -> u32 {
     return min(rung.room.w, LANES);
 }
 
+// First row of the state of a slot; a narrow block is the only one of its rung.
+fn state_row(rung: Rung, slot: u32) -> u32 {
+    return rung.room.x + slot / LANES * (rung.links.y + 2u * rung.groups.y) * LANES + slot % LANES;
+}
+
 fn is_coupled(rung: Rung) -> bool {
     return rung.air.w == MULTIBODY;
 }

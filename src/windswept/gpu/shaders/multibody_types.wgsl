@@ -11,7 +11,7 @@ struct Rod {
     rows: vec4u,     // parent or NONE; probe; depth; what the walks do at it: TIP, FOLLOWS, FORKS, LATER
 }
 
-// A rung whose links are coupled; nothing of any other.
+// A rung whose links are coupled; zeros of any other.
 struct Coupled {
     pace: vec4f,     // step to reckon with, s; how far into it forces are taken, s; the first over the second; 0
     rows: vec4u,     // first row of rods, carried velocities, records and slots
@@ -54,7 +54,7 @@ fn column_at(rung: Rung, own: Coupled, block: u32, lane: u32) -> Column {
     let stride = stride_of(rung);
     let links = rung.links.y;
     let before = block * links * stride;   // links of the blocks before this one
-    let joints = rung.room.x + before + 2u * block * rung.groups.y * stride + lane;
+    let joints = state_row(rung, block * LANES + lane);
     return Column(
         own.pace,
         links,

@@ -32,7 +32,7 @@ fn plan(@builtin(local_invocation_index) lane: u32) {
         dispatches[STEP] = min(total, MOST);
         dispatches[WIND] = min(total, MOST);
         dispatches[SHIFT] = min(tally[0], MOST);
-        dispatches[JOIN] = min(tally[1], MOST);
+        dispatches[JOIN] = min((tally[1] + 63u) / 64u, MOST);
         dispatches[JOIN_GROUPS] = min(tally[1], MOST);
     }
 }

@@ -48,7 +48,7 @@ fn share_of(motion: Motion) -> f32 {
 // Notes the angles of all joints as a level has them, in its own rotations, over what is noted already.
 fn note_angles(rung: Rung, slot: u32, seat: Seat, share: f32) {
     let kind = kinds[rung.links.w];
-    let column = column_of(rung, slot);
+    let column = state_row(rung, slot);
     for (var rank = 0u; rank < seat.count; rank++) {
         let i = ranks[kind.joints.w + rank].x;
         let link = links[kind.joints.x + i];
@@ -64,7 +64,7 @@ fn note_angles(rung: Rung, slot: u32, seat: Seat, share: f32) {
 // Poses a placement from one level's angles, or from those noted of two.
 fn pose_placement(rung: Rung, motion: Motion, seat: Seat, is_noted: bool) {
     let kind = kinds[rung.links.w];
-    let column = column_of(rung, motion.at.y);
+    let column = state_row(rung, motion.at.y);
     var position = vec3f(0.0);
     var rotation = vec4f(0.0, 0.0, 0.0, 1.0);
     var last = NONE;

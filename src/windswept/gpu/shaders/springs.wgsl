@@ -235,7 +235,7 @@ fn step_block(
         if is_coupled(rung) { continue; }
         if FIRST > 0u && FIRST >= rung.links.y { continue; }
         let stride = stride_of(rung);
-        let joints = rung.room.x + block.y * (rung.links.y + 2u * rung.groups.y) * stride + lane;
+        let joints = state_row(rung, block.y * LANES + lane);
         let column = Column(
             joints,
             joints + rung.links.y * stride,

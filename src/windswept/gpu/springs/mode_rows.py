@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windswept.motion import Level
-from windswept.motion.modal import MODE_COUNT
+from windswept.motion.modal import MODE_COUNT, Modes, no_modes
 from windswept.plants.plant import Ints
 
 HEADER, ROWS_PER_LINK = 3 * MODE_COUNT, 3
@@ -16,18 +16,19 @@ HEADER, ROWS_PER_LINK = 3 * MODE_COUNT, 3
 def mode_rows(levels: list[Level]) -> NDArray[np.uint32]:
     """(n, 4) words: for each level where its rows begin and how many links take part; then those rows.
 
+    Links that `multibody` couples take no part.
     A level's rows are the three matrices of ``Modes.gain``, row by row; and for every link its number, w, c and the
     inner step, and the modes' torques about its two axes.
     """
-    links = np.array([len(level.modes.link) for level in levels], np.int64)
+    every = [no_modes() if level.coupled else level.modes for level in levels]
+    links = np.array([len(modes.link) for modes in every], np.int64)
     size = HEADER + ROWS_PER_LINK * links
     table = np.zeros((len(levels), 4), np.uint32)
     table[:, 0], table[:, 1] = len(levels) + np.cumsum(size) - size, links
-    return np.concatenate([table, *map(_rows_of, levels)])
+    return np.concatenate([table, *map(_rows_of, levels, every)])
 
 
-def _rows_of(level: Level) -> NDArray[np.uint32]:
-    modes = level.modes
+def _rows_of(level: Level, modes: Modes) -> NDArray[np.uint32]:
     header = modes.gain.reshape(-1, MODE_COUNT).view(np.uint32)
     order = np.argsort(leaving(level.parent)[modes.link], kind="stable")
     rows = np.zeros((len(order), ROWS_PER_LINK, 4), np.uint32)

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from windswept.errors import GraphicsError
 from windswept.gpu import layouts
-from windswept.gpu.multibody import layouts as coupled
 from windswept.motion import Level
 
 Counts = NDArray[np.int64]
@@ -21,8 +20,6 @@ ROOM_BYTES = 1 << 30
 """Of a buffer at most, whatever the card could bind, if the coarsest levels need no more."""
 NARROWEST = 8
 """Blocks of few placements are as wide as these, rounded up to so many: whole lines of a card's cache."""
-
-
 NOTES = 32
 """Bytes that are noted of every link of a placement while it changes its level."""
 NOTE_BYTES = 1 << 28
@@ -63,9 +60,9 @@ def block_size(levels: list[Level]) -> BlockSize:
         state=links + 2 * groups,
         stack=np.where(is_coupled, 0, RECORD * depths + MODE_RECORD),
         wind=2 * probes,
-        carried=is_coupled * coupled.CARRIED * links,
-        records=is_coupled * coupled.RECORD * links,
-        slots=is_coupled * coupled.SLOT * depths,
+        carried=is_coupled * layouts.CARRIED_ROWS * links,
+        records=is_coupled * layouts.RECORD_ROWS * links,
+        slots=is_coupled * layouts.SLOT_ROWS * depths,
     )
 
 

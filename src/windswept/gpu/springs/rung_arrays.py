@@ -166,8 +166,7 @@ def _moved_by(level: Level) -> int:
     """STILL, SPRINGS or MULTIBODY."""
     if level.coupled:
         return layouts.MULTIBODY
-    moves = level.link_count or level.group_constants.any()
-    return layouts.SPRINGS if moves else layouts.STILL
+    return layouts.SPRINGS if level.moves else layouts.STILL
 
 
 def _kind_rows(kinds: list[GrownKind], rungs: Rows) -> Rows:
