@@ -37,7 +37,7 @@ class Ladder:
 
     hierarchy: Hierarchy
     levels: tuple[Level, ...]
-    """The last stands still; the one before, where it is kept, has no inertia: the plant follows the wind's pressure."""
+    """The last stands still; the one before, where kept, has no inertia: the plant follows the wind's pressure."""
     error: Doubles
     """(K,) stated error, m: estimated 95 % of tips, or what `with_measured_errors` makes of a measurement."""
     tolerance: Doubles
