@@ -82,7 +82,7 @@ class Level:
 
     @property
     def groups_swing(self) -> bool:
-        """Whether it has groups with inertia: those that follow the wind's pressure have none, nor what stands still."""
+        """Whether it has groups with inertia: who follows the wind at once has none, nor who stands still."""
         return bool(self.group_constants[:, GROUP_STEP : GROUP_STEP + 4].any())
 
     @property
