@@ -116,6 +116,18 @@ def blending(card: GpuSimulation) -> int:
     return int((card.card.read("motions", layouts.MOTION)["origin"][:, 0] != layouts.NONE).sum())
 
 
+def come_near(card: GpuSimulation) -> None:
+    """Lets an eye look at the stand from within until plants find no more room; who finds none stays and is counted."""
+    rooms = card._arrays.rungs["room"][:, 3]
+    card.eye = eye_at(20.0)
+    for _ in range(8):
+        card.advance(0.2)
+        check_seats(card)
+        assert (card.card.read("populations", "<u4") <= rooms).all()
+    assert card.refused_count > 0
+    assert np.isfinite(card.pose[0].position).all()
+
+
 def check_seats(card: GpuSimulation) -> None:
     """Every placement stands in the slots that it knows of, and no slot is taken twice or left open."""
     motions = card.card.read("motions", layouts.MOTION)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from handmade import random_tree
+from stands import SOFT
 from windswept.geometry.curves import build_geometry
 from windswept.geometry.geometry import Geometry
 from windswept.gpu.device import shared_device
@@ -42,6 +43,11 @@ class Stand:
 @pytest.fixture(scope="session")
 def device() -> Any:
     return shared_device()
+
+
+@pytest.fixture(scope="session")
+def soft_trees() -> list[Plant]:
+    return [random_tree(seed, material=SOFT) for seed in (3, 5)]
 
 
 @pytest.fixture(scope="session")

@@ -68,7 +68,7 @@ def main(arguments: list[str] | None = None) -> Any:
 
     Numba's own choice of threads, OpenMP, waits for milliseconds at the end of every kernel while another program
     holds a core. The command line calls kernels from one thread only, which is all that the simpler layer asks for.
-    So do the threads of NumPy's and SciPy's linear algebra, which a plant's modes would be found faster without.
+    The threads of NumPy's and SciPy's linear algebra wait in the same way, while a plant's modes are sought.
     """
     os.environ.setdefault("NUMBA_THREADING_LAYER", "workqueue")
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

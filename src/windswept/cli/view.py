@@ -65,5 +65,6 @@ def view_scene(scene: Scene, level_colours: bool = False, gpu: bool = False, mul
         if isinstance(simulation, Simulation):
             raise
         click.echo(f"windswept: {error}; starting again on the CPU", err=True)
-    simulation = start_again(simulation, True, SIZE, multibody)
+    with status_line("measuring levels"):
+        simulation = start_again(simulation, True, SIZE, multibody)
     show_window(LiveScene(simulation, level_colours), camera, controls)

@@ -86,8 +86,6 @@ def _random_sequence(speed: float, height: float, rng: np.random.Generator) -> t
     strength = speed * np.sqrt(rng.uniform(0.0, 1.0, 400)) * (rng.uniform(0.0, 1.0, 400) > 0.3)
     azimuth = rng.uniform(0.0, 2.0 * np.pi, 400)
     winds = strength[:, None] * np.column_stack([np.cos(azimuth), np.sin(azimuth)])
-    calm_below = height * np.maximum(
-        rng.uniform(-WHOLE_SHARE, 1.0 - WHOLE_SHARE, 400) / (1.0 - WHOLE_SHARE), 0.0
-    )
+    calm_below = height * np.maximum(rng.uniform(-WHOLE_SHARE / (1.0 - WHOLE_SHARE), 1.0, 400), 0.0)
     times = np.cumsum(pauses) - pauses
     return times.astype(np.float32), winds.astype(np.float32), calm_below.astype(np.float32)

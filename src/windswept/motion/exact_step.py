@@ -17,7 +17,6 @@ def exact_step(frequency: Doubles, damping_ratio: Doubles, time_step: float) -> 
 
     Returns:
         (n, 4) coefficients xx, xv, vx, vv of (y, v) -> (xx y + xv v, vx y + vv v).
-
     """
     damped = frequency * np.sqrt(1.0 - damping_ratio**2)
     decay = np.exp(-damping_ratio * frequency * time_step)

@@ -35,6 +35,7 @@ class LevelSet:
         self.members: list[int] = [int(m) for m in members]
         """Which placement each slot of the state is."""
         self.state = rest_state(level, len(self.members))
+        self._moves = level.moves
         self._placements, self._terrain = placements, terrain
         self._probes: Probes | None = None
         self.winds: tuple[Floats, Floats] | None = None
@@ -94,6 +95,6 @@ class LevelSet:
 
     def step(self, count: int, taken: int, interval: int) -> None:
         """Takes ``count`` inner steps of the interval, after ``taken`` taken before; what stands still takes none."""
-        if self.level.moves and self.members and self.winds is not None:
+        if self._moves and self.members and self.winds is not None:
             tiles = -(-len(self.members) // WIDTH)
             self.stepper.step(self.state.first_tiles(tiles), *self.winds, count, taken, interval)

@@ -170,7 +170,7 @@ class Simulation:
 def _check_arguments(
     scene: Scene, plants: list[Plant] | None, pixels: float, picture_height: int, aspect: float
 ) -> None:
-    """What a simulation starts from can be meant."""
+    """Refuses what a simulation cannot start from."""
     if not isinstance(scene, Scene):
         raise InputError("Simulation", "scene", shown(scene), "a Scene, as load_scene gives it")
     if plants is not None and len(plants) != len(scene.kinds):

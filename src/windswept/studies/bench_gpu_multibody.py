@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from windswept.gpu.device import adapter_summary, is_software, shared_device
 from windswept.gpu.layouts import CARRIED_ROWS, RECORD_ROWS
@@ -37,7 +38,7 @@ def bench_gpu_multibody(say: Callable[[str], None] = lambda line: None) -> dict[
 def _multibody(links: int, placements: int) -> dict[str, float]:
     """One plant at its finest level, many times."""
     scene, kind = grove(links, placements)
-    card = CoupledSimulation(scene, [kind])
+    card = CoupledSimulation(scene, [replace(kind, multibody=True)])
     count = links * placements
     seconds = card_seconds_per_step(card) / count
     springs = card_seconds_per_step(GpuSimulation(scene, [kind])) / count

@@ -13,10 +13,9 @@ from dataclasses import replace
 import numpy as np
 
 from windswept.motion import Model, build_model, finest_level, plant_frequencies, rest_state
+from windswept.motion.modes import natural_modes
 from windswept.motion.multibody import MultibodyStepper, coupled
 from windswept.motion.multibody.constants import warped_step
-from windswept.motion.multibody.plain import kinematics, mass_matrix
-from windswept.motion.rods import Doubles
 from windswept.plants.plant import Floats
 from windswept.studies.bench_plants import plant_with_links
 from windswept.studies.mujoco_tree import mujoco_frequencies, mujoco_tree
@@ -26,23 +25,14 @@ PERIODS, SWING = 24, 1e-3
 """Of a mode that swings freely, and its largest joint angle, rad: no term of higher order matters."""
 
 
-def mode_shape(model: Model, mode: int) -> tuple[float, Doubles]:
-    """Frequency (Hz) of one of a plant's modes, 0 for the lowest, and its (L, 2) joint angles."""
-    still = np.zeros((model.link_count, 2))
-    root = np.sqrt(model.rods.compliance.ravel())
-    mass = mass_matrix(model, kinematics(model, still, still))
-    values, shapes = np.linalg.eigh(root[:, None] * mass * root)
-    shape = (root * shapes[:, -1 - mode]).reshape(-1, 2)
-    return float(0.5 / np.pi / np.sqrt(values[-1 - mode])), shape
-
-
 def ringing_frequency(model: Model, mode: int) -> float:
-    """Frequency at which a mode rings in the stepper without air and damping, Hz.
+    """Frequency at which one of MODES modes, 0 for the lowest, rings in the stepper without air and damping, Hz.
 
     From how far the phase of its share in the angles runs from the expected one between the first and the last third.
     """
     free = replace(model, damping_ratio=0.0 * model.damping_ratio)
-    expected, shape = mode_shape(free, mode)
+    omega, shapes = natural_modes(free.skeleton, free.rods, MODES)
+    expected, shape = omega[mode] / (2.0 * np.pi), shapes[..., mode]
     start = rest_state(finest_level(free), 1)
     start.angles(0)[:] = SWING * shape / np.abs(shape).max()
     state, stepper = coupled(free, start), MultibodyStepper(free)
@@ -57,7 +47,7 @@ def ringing_frequency(model: Model, mode: int) -> float:
     window = np.hanning(third)
     first, last = np.sum(window * turned[:third]), np.sum(window * turned[-third:])
     run = float(np.angle(last / first))
-    return expected + run / (2.0 * np.pi * (len(seen) - third) * free.time_step)
+    return float(expected) + run / (2.0 * np.pi * (len(seen) - third) * free.time_step)
 
 
 def row(links: int, seed: int) -> dict[str, object]:

@@ -16,9 +16,10 @@ from windswept.levels.maximal_wind import maximal_wind
 from windswept.levels.measure import followed_tips, tip_positions
 from windswept.levels.training_wind import PLACEMENTS, Air, training_air
 from windswept.motion import Model, build_model, finest_level, rest_state
+from windswept.motion.modes import natural_modes
 from windswept.motion.multibody import MultibodyStepper, coupled, coupled_rest
 from windswept.motion.multibody.constants import forces_at, warped_step
-from windswept.motion.multibody.plain import energy, kinematics, mass_matrix
+from windswept.motion.multibody.plain import energy
 from windswept.motion.rods import Doubles
 from windswept.motion.sweeps import joint_torque
 from windswept.plants.plant import Floats
@@ -112,12 +113,10 @@ def bent_by_a_pull(model: Model) -> Doubles:
 
 def settled_share(model: Model, angles: Doubles, seconds: float) -> float:
     """Share of its energy that a plant let go at rest keeps when SETTLING alone damps its modes, in small angles."""
-    still, root = np.zeros((model.link_count, 2)), np.sqrt(model.rods.compliance.ravel())
-    mass = mass_matrix(model, kinematics(model, still, still))
-    values, shapes = np.linalg.eigh(root[:, None] * mass * root)
-    energies = (shapes.T @ (angles.ravel() / root)) ** 2
+    omega, shapes = natural_modes(model.skeleton, model.rods, 2 * model.link_count)
+    energies = np.einsum("lir,li->r", shapes, angles / model.rods.compliance) ** 2
     beyond = forces_at(model) / warped_step(model) - 0.5
-    kept = np.exp(-2.0 / values * beyond * model.time_step * seconds)
+    kept = np.exp(-2.0 * omega**2 * beyond * model.time_step * seconds)
     return float(np.sum(energies * kept) / np.sum(energies))
 
 

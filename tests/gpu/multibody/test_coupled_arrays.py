@@ -79,8 +79,8 @@ def test_rods_hold_the_plant():
     np.testing.assert_allclose(rows["axis_1"][:, 3] * model.rods.compliance[:, 0], 1.0, rtol=1e-6)
 
 
-def test_rods_of_a_merged_level_hold_its_groups(limp_trees, coupled_ladders):
-    model = build_model(limp_trees[0])
+def test_rods_of_a_merged_level_hold_its_groups(soft_trees, coupled_ladders):
+    model = build_model(soft_trees[0])
     for place in coupled_ladders[0].merged(coupled=True):
         level = coupled_ladders[0].levels[place]
         rows, mass = rod_rows(model, level), model.rods.mass
@@ -91,9 +91,9 @@ def test_rods_of_a_merged_level_hold_its_groups(limp_trees, coupled_ladders):
         assert np.array_equal(rows["rows"][1:, 0], level.parent[1:])
 
 
-def test_only_coupled_rungs_take_what_coupled_links_need(limp_trees, coupled_ladders):
-    scene = stand_of(limp_trees, [70, 3])
-    pairs = zip(limp_trees, coupled_ladders, scene.placements, strict=True)
+def test_only_coupled_rungs_take_what_coupled_links_need(soft_trees, coupled_ladders):
+    scene = stand_of(soft_trees, [70, 3])
+    pairs = zip(soft_trees, coupled_ladders, scene.placements, strict=True)
     kinds = [GrownKind(tree, ladder.hierarchy.model, ladder, placed) for tree, ladder, placed in pairs]
     arrays = rung_arrays(kinds, 1 << 30)
     ours = coupled_arrays(kinds, arrays)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stands import blending, both, check_seats, eye_at, fly, gaps, kinds_of, only, stand_of
+from stands import blending, both, check_seats, come_near, eye_at, fly, gaps, kinds_of, only, stand_of
 from windswept.errors import GraphicsError
 from windswept.gpu import layouts
 from windswept.gpu.multibody import walk
@@ -37,8 +37,8 @@ def shortened(ladder: Ladder) -> Ladder:
     )
 
 
-def test_ten_gusty_seconds_at_every_level(limp_trees, coupled_ladders):
-    tree, ladder = limp_trees[0], coupled_ladders[0]
+def test_ten_gusty_seconds_at_every_level(soft_trees, coupled_ladders):
+    tree, ladder = soft_trees[0], coupled_ladders[0]
     ladders = [only(ladder, place) for place in range(len(ladder.levels))]
     whole = with_a_whole_plant_coupled(ladder)
     ladders.append(only(whole, int(whole.merged(coupled=True)[-1])))
@@ -56,9 +56,9 @@ def test_ten_gusty_seconds_at_every_level(limp_trees, coupled_ladders):
     assert worst.max() < 5e-6
 
 
-def test_a_storm_pulls_merged_branches_as_on_the_cpu(limp_trees, coupled_ladders):
+def test_a_storm_pulls_merged_branches_as_on_the_cpu(soft_trees, coupled_ladders):
     # Where the air's pull on groups is what holds their carriers: without it 1e-5 to 5e-5.
-    tree, ladder = limp_trees[1], coupled_ladders[1]
+    tree, ladder = soft_trees[1], coupled_ladders[1]
     ladders = [only(ladder, int(place)) for place in ladder.merged(coupled=True)]
     count = len(ladders)
     scene = stand_of([tree] * count, [2] * count)
@@ -68,8 +68,8 @@ def test_a_storm_pulls_merged_branches_as_on_the_cpu(limp_trees, coupled_ladders
         assert gaps(simulation.advance(0.25), card.advance(0.25)).max() < 2e-6
 
 
-def test_plants_pass_between_the_models_as_on_the_cpu(limp_trees, coupled_ladders):
-    simulation, card = both(stand_of(limp_trees, [30, 21]), coupled_ladders, limp_trees, CoupledSimulation)
+def test_plants_pass_between_the_models_as_on_the_cpu(soft_trees, coupled_ladders):
+    simulation, card = both(stand_of(soft_trees, [30, 21]), coupled_ladders, soft_trees, CoupledSimulation)
     way = -2.0 - 60.0 * (1.0 - np.cos(np.arange(100) * 3.0 / 16.0))
     passed, worst = set(), []
     before = [kind.at.copy() for kind in simulation.kinds]
@@ -90,10 +90,10 @@ def test_plants_pass_between_the_models_as_on_the_cpu(limp_trees, coupled_ladder
     assert max(worst) < 2e-6
 
 
-def test_links_that_join_carry_what_their_joints_say(limp_trees, coupled_ladders):
+def test_links_that_join_carry_what_their_joints_say(soft_trees, coupled_ladders):
     ladders = [shortened(ladder) for ladder in coupled_ladders]
     # Two blocks, the second not full.
-    _, card = both(stand_of(limp_trees, [90, 5]), ladders, limp_trees, CoupledSimulation)
+    _, card = both(stand_of(soft_trees, [90, 5]), ladders, soft_trees, CoupledSimulation)
     card.eye = eye_at(-4000.0)
     card.advance(2.0)
     assert all((levels == 1).all() for levels in card.levels_now)
@@ -110,9 +110,9 @@ def test_links_that_join_carry_what_their_joints_say(limp_trees, coupled_ladders
             assert np.abs(expected).max() > 1e-2
 
 
-def test_who_stays_keeps_what_its_links_carry(limp_trees, coupled_ladders):
+def test_who_stays_keeps_what_its_links_carry(soft_trees, coupled_ladders):
     simulation, card = both(
-        stand_of(limp_trees, [90, 40], depth=300.0), coupled_ladders, limp_trees, CoupledSimulation
+        stand_of(soft_trees, [90, 40], depth=300.0), coupled_ladders, soft_trees, CoupledSimulation
     )
     coupled, rng = card._arrays.coupled, np.random.default_rng(4)
     at, shifted = card.card.read("motions", layouts.MOTION)["at"], 0
@@ -126,12 +126,14 @@ def test_who_stays_keeps_what_its_links_carry(limp_trees, coupled_ladders):
     assert shifted > 10
 
 
-def test_a_change_of_model_is_not_seen(limp_trees, coupled_ladders):
+def test_a_change_of_model_is_not_seen(soft_trees, coupled_ladders):
     # PHYSICS D2.2: the second difference of every link's place less the same where all links are coupled, in pixels.
     ladder = measured_ladder(coupled_ladders[1])
-    tree, scene = limp_trees[1], stand_of(limp_trees[1:], [3], depth=2.0)
+    tree, scene = soft_trees[1], stand_of(soft_trees[1:], [3], depth=2.0)
     simulation, card = both(scene, [ladder], [tree], CoupledSimulation)
-    without = CoupledSimulation(scene, [replace(kinds_of(simulation)[0], ladder=None)], picture_height=1080)
+    without = CoupledSimulation(
+        scene, [replace(kinds_of(simulation)[0], ladder=None, multibody=True)], picture_height=1080
+    )
     apart, pixels, coupled, merged = [], [], [], set()
     for frame in range(240):
         card.eye = eye_at(-3.0 - 150.0 * (1.0 - np.cos(2.0 * np.pi * frame / 240.0)))
@@ -150,10 +152,10 @@ def test_a_change_of_model_is_not_seen(limp_trees, coupled_ladders):
     assert jump.max() < 1.0
 
 
-def test_frame_rate_does_not_matter(limp_trees, coupled_ladders):
+def test_frame_rate_does_not_matter(soft_trees, coupled_ladders):
     ends = []
     for rate in (30, 144):
-        card = both(stand_of(limp_trees, [5, 4]), coupled_ladders, limp_trees, CoupledSimulation)[1]
+        card = both(stand_of(soft_trees, [5, 4]), coupled_ladders, soft_trees, CoupledSimulation)[1]
         card.eye = eye_at(-60.0)
         for frame in range(2 * rate):
             if frame == rate:
@@ -164,44 +166,38 @@ def test_frame_rate_does_not_matter(limp_trees, coupled_ladders):
     assert any(ends[0][1])
 
 
-def test_who_finds_no_room_stays_and_is_counted(limp_trees, coupled_ladders):
-    simulation, full = both(stand_of(limp_trees, [200, 40]), coupled_ladders, limp_trees, CoupledSimulation)
+def test_who_finds_no_room_stays_and_is_counted(soft_trees, coupled_ladders):
+    simulation, full = both(stand_of(soft_trees, [200, 40]), coupled_ladders, soft_trees, CoupledSimulation)
     # Less than the records of all would need, more than their joints do.
-    room = 200 * 16 * 3 * limp_trees[0].link_count
+    room = 200 * 16 * 3 * soft_trees[0].link_count
     card = CoupledSimulation(simulation.scene, full.kinds, picture_height=1080, room=room)
     rooms = card._arrays.rungs["room"][:, 3]
     assert rooms[0] < 200 <= rooms[len(coupled_ladders[0].levels) - 1]
     assert max(card.bytes[name] for name in ("carried", "records", "slots")) <= room
-    card.eye = eye_at(20.0)
-    for _ in range(8):
-        card.advance(0.2)
-        check_seats(card)
-        assert (card.card.read("populations", "<u4") <= rooms).all()
-    assert card.refused_count > 0
-    assert np.isfinite(card.pose[0].position).all()
+    come_near(card)
 
 
-def test_a_ladder_of_springs_alone_runs_too(limp_trees, coupled_ladders):
+def test_a_ladder_of_springs_alone_runs_too(soft_trees, coupled_ladders):
     springs = [
         replace(ladder, levels=tuple(replace(level, coupled=False) for level in ladder.levels))
         for ladder in coupled_ladders
     ]
-    simulation, card = both(stand_of(limp_trees, [3, 2]), springs, limp_trees, CoupledSimulation)
+    simulation, card = both(stand_of(soft_trees, [3, 2]), springs, soft_trees, CoupledSimulation)
     assert gaps(simulation.advance(1.0), card.advance(1.0)).max() < 5e-6
 
 
-def test_levels_that_do_not_fit_are_said(limp_trees, coupled_ladders):
-    simulation, _ = both(stand_of(limp_trees, [3, 2]), coupled_ladders, limp_trees, CoupledSimulation)
+def test_levels_that_do_not_fit_are_said(soft_trees, coupled_ladders):
+    simulation, _ = both(stand_of(soft_trees, [3, 2]), coupled_ladders, soft_trees, CoupledSimulation)
     with pytest.raises(GraphicsError, match=r"needs .* MB .* on the CPU"):
         CoupledSimulation(simulation.scene, kinds_of(simulation), room=1_000)
 
 
-def test_a_merged_level_too_large_for_a_software_driver_is_said(limp_trees, coupled_ladders, monkeypatch):
-    simulation, _ = both(stand_of(limp_trees, [3, 2]), coupled_ladders, limp_trees, CoupledSimulation)
+def test_a_merged_level_too_large_for_a_software_driver_is_said(soft_trees, coupled_ladders, monkeypatch):
+    simulation, _ = both(stand_of(soft_trees, [3, 2]), coupled_ladders, soft_trees, CoupledSimulation)
     monkeypatch.setattr(turns, "is_software", lambda device: True)
     monkeypatch.setattr(walk, "LADEN_TURNS", 6000)
     with pytest.raises(GraphicsError, match=r"1\d links .* moves 10 at most: simulate on the CPU"):
         CoupledSimulation(simulation.scene, kinds_of(simulation))
     # A level without groups has no loop over them.
-    finest = [replace(kind, ladder=None) for kind in kinds_of(simulation)]
+    finest = [replace(kind, ladder=None, multibody=True) for kind in kinds_of(simulation)]
     assert CoupledSimulation(simulation.scene, finest).advance(0.1).step_count == 12

@@ -31,7 +31,8 @@ def on_card(plants: list[Plant], counts: list[int], time_step: float | None = No
     scene = stand_of(plants, counts)
     models = [build_model(plant, *([time_step] if time_step else [])) for plant in plants]
     rows = zip(plants, models, scene.placements, strict=True)
-    return CoupledSimulation(scene, [GrownKind(plant, model, None, placed) for plant, model, placed in rows])
+    kinds = [GrownKind(plant, model, None, placed, multibody=True) for plant, model, placed in rows]
+    return CoupledSimulation(scene, kinds)
 
 
 def on_both(plants: list[Plant], counts: list[int]) -> tuple[Simulation, CoupledSimulation]:
@@ -167,7 +168,7 @@ def test_a_scene_without_plants_runs():
 
 def test_what_does_not_fit_is_said(trees):
     scene = stand_of(trees[:1], [64])
-    kind = GrownKind(trees[0], build_model(trees[0]), None, scene.placements[0])
+    kind = GrownKind(trees[0], build_model(trees[0]), None, scene.placements[0], multibody=True)
     links = kind.model.link_count
     # Joints fit in so much, the records of links do not.
     room = 64 * 16 * 3 * links

@@ -2,8 +2,6 @@ from __future__ import annotations
 
 import pytest
 
-from handmade import random_tree
-from stands import SOFT
 from windswept.levels import Ladder, build_ladder, simplify
 from windswept.motion import build_model
 from windswept.plants.plant import Plant
@@ -14,11 +12,6 @@ from windswept.scene import moving_kind
 def no_cut_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
     """Levels cut for a single near plant are the CPU's alone."""
     monkeypatch.setattr(moving_kind, "NEAR", 0.0)
-
-
-@pytest.fixture(scope="session")
-def soft_trees() -> list[Plant]:
-    return [random_tree(seed, material=SOFT) for seed in (3, 5)]
 
 
 @pytest.fixture(scope="session")

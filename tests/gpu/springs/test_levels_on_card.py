@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stands import blending, both, check_seats, eye_at, fly, gaps, kinds_of, stand_of
+from stands import blending, both, check_seats, come_near, eye_at, fly, gaps, kinds_of, stand_of
 from windswept.errors import GraphicsError
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.levels import Eye, outside_view
@@ -81,13 +81,7 @@ def test_who_finds_no_room_stays_and_is_counted(soft_trees, soft_ladders):
     card = GpuSimulation(simulation.scene, full.kinds, picture_height=1080, room=room)
     rooms = card._arrays.rungs["room"][:, 3]
     assert rooms[0] < 200 <= rooms[len(soft_ladders[0].levels) - 1]
-    card.eye = eye_at(20.0)
-    for _ in range(8):
-        card.advance(0.2)
-        check_seats(card)
-        assert (card.card.read("populations", "<u4") <= rooms).all()
-    assert card.refused_count > 0
-    assert np.isfinite(card.pose[0].position).all()
+    come_near(card)
 
 
 def test_too_little_room_is_said_at_once(soft_trees, soft_ladders):

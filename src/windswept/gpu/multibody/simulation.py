@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 from windswept.gpu import layouts
@@ -11,46 +10,17 @@ from windswept.gpu.failures import card_errors
 from windswept.gpu.multibody.coupled_arrays import coupled_arrays
 from windswept.gpu.multibody.coupled_rows import card_rows, state_of_rows
 from windswept.gpu.multibody.walk import CoupledWalk
-from windswept.gpu.springs.kinds import GrownKind
 from windswept.gpu.springs.simulation import GpuSimulation
 from windswept.gpu.springs.walk import Walk
 from windswept.motion.multibody import CoupledState
 from windswept.plants.plant import Floats
-from windswept.scene.meadow_bed import Bed
-from windswept.scene.scene import Scene
 
 
 class CoupledSimulation(GpuSimulation):
     """Runs a scene on the card as ``GpuSimulation`` does, with levels whose links are coupled.
 
-    Args:
-        scene: what stands where, in which wind.
-        kinds: its plants, grown and compiled; their ladders say which levels are coupled, and where there is none, all
-            links are.
-        pixels: error that may be seen, at ``picture_height``.
-        picture_height: of the picture, pixels.
-        room: bytes that a buffer may have; None for what the adapter takes.
-        beds: its underbrush, planted.
-        aspect: width of the picture over its height.
-
-    Raises:
-        GraphicsError: no adapter, or one with too little memory.
+    Made as one. Its kinds' ladders say which levels are coupled; where there is none, ``GrownKind.multibody`` does.
     """
-
-    def __init__(
-        self,
-        scene: Scene,
-        kinds: list[GrownKind],
-        pixels: float = 1.0,
-        picture_height: int = 720,
-        room: int | None = None,
-        beds: tuple[Bed, ...] = (),
-        aspect: float = 16.0 / 9.0,
-    ) -> None:
-        coupled = [replace(kind, multibody=True) for kind in kinds]
-        super().__init__(scene, coupled, pixels, picture_height, room, beds, aspect)
-        # Every walk of a step is a dispatch of its own.
-        self.steps_at_once = 1
 
     @card_errors("taking motion over")
     def put(self, states: list[CoupledState]) -> None:
@@ -92,6 +62,8 @@ class CoupledSimulation(GpuSimulation):
 
     def _new_walk(self) -> Walk:
         """The kernels, once what coupled links need has its place on the card."""
+        # Every walk of a step is a dispatch of its own.
+        self.steps_at_once = 1
         arrays = coupled_arrays(self.kinds, self._arrays)
         self._coupled = arrays.coupled
         device: Any = self._device

@@ -16,9 +16,8 @@ HEADER, ROWS_PER_LINK = 3 * MODE_COUNT, 3
 def mode_rows(levels: list[Level]) -> NDArray[np.uint32]:
     """(n, 4) words: for each level where its rows begin and how many links take part; then those rows.
 
-    Links that `multibody` couples take no part.
     A level's rows are the three matrices of ``Modes.gain``, row by row; and for every link its number, w, c and the
-    inner step, and the modes' torques about its two axes.
+    inner step, and the modes' torques about its two axes. One that `multibody` moves has no links.
     """
     every = [no_modes() if level.coupled else level.modes for level in levels]
     links = np.array([len(modes.link) for modes in every], np.int64)
